@@ -115,6 +115,15 @@ impl<'a> Assembly<'a> {
                 }),
             }
         }
+        self.tape.writes = (self.tape.writes.iter().copied())
+            .flat_map(|row| {
+                singles(row.count).map(move |(k, count)| Write {
+                    from: row.from + k as Register,
+                    to: row.to + k,
+                    count,
+                })
+            })
+            .collect();
         if self.tape.steps.is_empty() {
             self.copies();
         }
@@ -152,7 +161,11 @@ impl<'a> Assembly<'a> {
             let (row, others) = rest.split_at(count);
             let numbers: Vec<Number> = row.iter().map(|(_, number)| *number).collect();
             let into = self.place(&numbers)?;
-            self.tape.loads.push(Load { into, count, input });
+            let parts = singles(count).filter_map(|(k, count)| {
+                let (into, input) = (into + k as Register, input.after(k)?);
+                Some(Load { into, count, input })
+            });
+            self.tape.loads.extend(parts);
             rest = others;
         }
         Ok(())
@@ -301,6 +314,12 @@ impl<'a> Assembly<'a> {
         }
         self.tape.loads = copies;
     }
+}
+
+/// A row of registers to copy: its starts and counts, one by one if it is short. Few numbers are copied faster without a call.
+fn singles(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    let step = if count < SHORTEST_ROW { 1 } else { count };
+    (0..count).step_by(step).map(move |k| (k, step))
 }
 
 impl Step {

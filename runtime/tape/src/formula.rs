@@ -2,7 +2,6 @@
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
-use std::slice;
 use std::sync::Arc;
 
 use symplectic::constraints::{
@@ -259,11 +258,16 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     }
 
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        self.velocities(|_| (time, q, p), slice::from_mut(out));
+        let out = out.as_mut_slice();
+        let write = |to: usize, values: &[T]| copy_to(out, to, values);
+        self.tapes.velocity.run(self.at((time, q, p)), write);
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        self.forces(|_| (time, q, p), slice::from_mut(out));
+        self.note(time);
+        let out = out.as_mut_slice();
+        let write = |to: usize, values: &[T]| copy_to(out, to, values);
+        self.tapes.force.run(self.at((time, q, p)), write);
     }
 
     fn velocities<'a, T: Scalar>(

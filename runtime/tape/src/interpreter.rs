@@ -14,7 +14,7 @@ use symplectic_core::inside::{EightLanes, Work, in_eight_lanes};
 
 use crate::assembly::{CHUNK, SHORTEST_ROW};
 use crate::operation::{Operation, Use, dispatch};
-use crate::tape::{At, Load, Register, Step, Tape};
+use crate::tape::{At, Input, Load, Register, Step, Tape};
 
 /// Eight numbers side by side.
 type Eight = [f64; CHUNK];
@@ -107,10 +107,10 @@ impl Tape {
     #[inline]
     fn load<T: Scalar>(&self, at: At<'_, T>, registers: &mut [T]) {
         for load in &self.loads {
-            let into = &mut registers[load.into as usize..][..load.count];
+            let into = load.into as usize;
             match at.row(load) {
-                Some(row) => into.copy_from_slice(row),
-                None => at.each(load, |k, value| into[k] = value),
+                Some(row) => registers[into..into + load.count].copy_from_slice(row),
+                None => at.each(load, |k, value| registers[into + k] = value),
             }
         }
     }
@@ -148,7 +148,12 @@ impl Tape {
 /// Copies results from the number `to` on, as many as there are places.
 #[inline]
 pub(crate) fn copy_to<T: Scalar>(out: &mut [T], to: usize, values: &[T]) {
-    if let Some(out) = out.get_mut(to..) {
+    if let [value] = values {
+        // Without a call.
+        if let Some(place) = out.get_mut(to) {
+            *place = *value;
+        }
+    } else if let Some(out) = out.get_mut(to..) {
         let count = out.len().min(values.len());
         out[..count].copy_from_slice(&values[..count]);
     }
@@ -161,12 +166,13 @@ fn double<T: Scalar>(number: T) -> f64 {
 }
 
 impl<'a, T: Scalar> At<'a, T> {
-    /// The components of the state that a row of inputs reads, if it does.
+    /// The components of the state that a row of several inputs reads, if all exist.
     #[inline(always)]
     fn row(&self, load: &Load) -> Option<&'a [T]> {
         let (half, first) = match load.input {
-            crate::Input::Position(first) => (self.q, first),
-            crate::Input::Momentum(first) => (self.p, first),
+            _ if load.count == 1 => return None,
+            Input::Position(first) => (self.q, first),
+            Input::Momentum(first) => (self.p, first),
             _ => return None,
         };
         half.get(first..first + load.count)
@@ -175,6 +181,9 @@ impl<'a, T: Scalar> At<'a, T> {
     /// Calls `work` with the number and the value of each input of a row.
     #[inline(always)]
     fn each(&self, load: &Load, mut work: impl FnMut(usize, T)) {
+        if load.count == 1 {
+            return work(0, self.value(load.input));
+        }
         match self.row(load) {
             Some(row) => row.iter().enumerate().for_each(|(k, value)| work(k, *value)),
             None => {

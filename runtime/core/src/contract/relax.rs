@@ -7,6 +7,8 @@ use num_traits::Zero;
 
 use crate::contract::HalfChange;
 use crate::number::linear_combination::{Products, shortest, starts, sum_of};
+#[cfg(feature = "alloc")]
+use crate::number::registers::{EightLanes, in_eight_lanes};
 use crate::number::registers::{self, Widest, Work};
 use crate::number::rows::{Eight, Row, WideEight, WidestEight};
 use crate::number::summation::moved;
@@ -194,6 +196,128 @@ where
     fn product(&self, j: usize) -> (K::Numbers, K::Numbers) {
         let factor = K::splat((self.sum.factor)(j));
         (factor, K::load(&(self.sum.vector)(j)[self.row]))
+    }
+}
+
+/// The largest number of stages that are computed side by side, as many as there are lanes.
+#[cfg(feature = "alloc")]
+const STAGES: usize = 8;
+
+/// All stages of short vectors of doubles side by side; `columns` has the factors of each term. Returns `false`, and does nothing, for other
+/// vectors. The bits are those of [`relax_by`].
+#[cfg(feature = "alloc")]
+#[inline]
+pub(super) fn relax_side_by_side<R: Summation, V: Vector>(
+    columns: &[[f64; STAGES]],
+    out: &mut [V],
+    (base, low): (&V, &V),
+    terms: &[V],
+    change: &mut HalfChange,
+) -> bool {
+    let n = shortest([base, low])
+        .min(shortest(terms))
+        .min(shortest(&*out));
+    let (stages, count) = (out.len(), terms.len());
+    let is_short = n < registers::LONG && count <= STAGES && stages <= STAGES;
+    let (Some(base), Some(low)) = (
+        V::Scalar::doubles(base.as_slice()),
+        V::Scalar::doubles(low.as_slice()),
+    ) else {
+        return false;
+    };
+    if columns.is_empty() || columns.len() != count || !is_short {
+        return false;
+    }
+    let mut places = out.iter_mut();
+    let mut vectors = terms.iter();
+    let (difference, scale) = in_eight_lanes(SideBySide::<R> {
+        columns,
+        out: core::array::from_fn(|_| {
+            let vector = places.next().map(V::as_mut_slice);
+            let doubles = vector.and_then(V::Scalar::doubles_mut);
+            doubles.unwrap_or(&mut [])
+        }),
+        terms: core::array::from_fn(|_| {
+            let vector = vectors.next().map(V::as_slice);
+            vector.and_then(V::Scalar::doubles).unwrap_or(&[])
+        }),
+        base: &base[..n],
+        low: &low[..n],
+        stages,
+        sums: PhantomData,
+    });
+    change.join(difference, scale);
+    true
+}
+
+/// Stages in lanes.
+#[cfg(feature = "alloc")]
+struct SideBySide<'a, R> {
+    columns: &'a [[f64; STAGES]],
+    out: [&'a mut [f64]; STAGES],
+    terms: [&'a [f64]; STAGES],
+    base: &'a [f64],
+    low: &'a [f64],
+    stages: usize,
+    sums: PhantomData<R>,
+}
+
+#[cfg(feature = "alloc")]
+impl<R: Summation> EightLanes for SideBySide<'_, R> {
+    type Output = (f64, f64);
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<L: Lanes<Array = [f64; STAGES]>>(self) -> (f64, f64) {
+        let Self {
+            columns,
+            mut out,
+            terms,
+            base,
+            low,
+            stages,
+            ..
+        } = self;
+        // One for each stage: they need not wait for one another.
+        let mut changes = [HalfChange::default(); STAGES];
+        for k in 0..base.len() {
+            let products = OfComponent {
+                k,
+                columns,
+                terms: &terms,
+            };
+            let (start, low) = (L::from_f64(base[k]), L::from_f64(low[k]));
+            let new = value::<R, L>(start, low, columns.len(), products).to_array();
+            for stage in 0..stages.min(STAGES) {
+                let old = out[stage][k];
+                let new = moved(R::OVERRELAXED, old, new[stage]);
+                changes[stage].record(base[k], old, new);
+                out[stage][k] = new;
+            }
+        }
+        let mut all = HalfChange::default();
+        for change in changes {
+            all.join(change.difference(), change.scale());
+        }
+        (all.difference(), all.scale())
+    }
+}
+
+/// The products of one component, for all stages.
+#[cfg(feature = "alloc")]
+struct OfComponent<'a> {
+    k: usize,
+    columns: &'a [[f64; STAGES]],
+    terms: &'a [&'a [f64]; STAGES],
+}
+
+#[cfg(feature = "alloc")]
+impl<L: Lanes<Array = [f64; STAGES]>> Products<L> for OfComponent<'_> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn product(&self, j: usize) -> (L, L) {
+        (
+            L::from_array(self.columns[j]),
+            L::from_f64(self.terms[j][self.k]),
+        )
     }
 }
 
