@@ -184,13 +184,19 @@ impl<'a> Assembly<'a> {
                 let level = 1 + below.map(|k| levels[*k as usize]).max().unwrap_or(0);
                 levels[number] = level;
                 count += 1;
-                groups.entry((level, code)).or_default().push(number as Number);
+                groups
+                    .entry((level, code))
+                    .or_default()
+                    .push(number as Number);
             }
         }
         if count > MAX_OPERATIONS {
             return Err(Refusal::TooLong);
         }
-        let mut groups: Vec<_> = groups.into_iter().map(|((_, code), group)| (code, group)).collect();
+        let mut groups: Vec<_> = groups
+            .into_iter()
+            .map(|((_, code), group)| (code, group))
+            .collect();
         // Where each value is read first: group, operand and place.
         let mut readers = vec![(usize::MAX, 0, 0); self.list.len()];
         for (place, &result) in self.results.iter().enumerate().rev() {
@@ -220,9 +226,11 @@ impl<'a> Assembly<'a> {
         let start = self.place(group)?;
         let mut last: Option<(Step, [usize; 3])> = None;
         for (k, numbers) in operands.iter().enumerate() {
+            // Operands that the operation does not need are the first one.
             let mut read = [(0, 0); 3];
-            for (read, number) in read.iter_mut().zip(&numbers[..code.arity()]) {
-                *read = *self.places.get(number).ok_or(Refusal::Outside)?;
+            for (slot, read) in read.iter_mut().enumerate() {
+                let number = numbers[if slot < code.arity() { slot } else { 0 }];
+                *read = *self.places.get(&number).ok_or(Refusal::Outside)?;
             }
             let (registers, blocks) = (read.map(|read| read.0), read.map(|read| read.1));
             if let Some((row, of_row)) = &mut last
@@ -284,7 +292,11 @@ impl<'a> Assembly<'a> {
         if *left == 0
             && let Some((_, block)) = self.places.remove(&value)
         {
-            let Block { start, length, live } = &mut self.blocks[block];
+            let Block {
+                start,
+                length,
+                live,
+            } = &mut self.blocks[block];
             *live -= 1;
             if *live == 0 {
                 self.free.entry(*length).or_default().push(*start);
@@ -299,7 +311,8 @@ impl<'a> Assembly<'a> {
             let mut from = write.from;
             while from < write.from + write.count as Register {
                 let loads = &mut self.tape.loads.iter();
-                let found = loads.find(|load| (load.into..load.into + load.count as Register).contains(&from));
+                let found = loads
+                    .find(|load| (load.into..load.into + load.count as Register).contains(&from));
                 let Some(load) = found else { return };
                 let before = (from - load.into) as usize;
                 let done = (from - write.from) as usize;

@@ -11,6 +11,7 @@ use symplectic_formula::evaluate::Real;
 use symplectic_formula::function::Elementary;
 use symplectic_formula::graph::{Half, Id, LoopId};
 use symplectic_formula::operations::{Op, Operation, Operations};
+use symplectic_formula::statements::{Goal, Statement, statements};
 
 use crate::assembly::{Assembly, join_products};
 use crate::operation::{Code, apply};
@@ -73,8 +74,8 @@ pub(crate) struct Unrolled<'a> {
     operations: Operations<'a>,
     /// The operations that vary in each loop, in order.
     changing: HashMap<LoopId, Rc<[Op]>>,
-    /// For an operation in a loop, the operations below it that vary in the loop.
-    needed: HashMap<(LoopId, Op), Rc<[Op]>>,
+    /// For operations in a loop, the operations below them that vary in the loop.
+    needed: HashMap<(LoopId, Vec<Op>), Rc<[Op]>>,
     indices: Indices,
     bound: u64,
     /// The values of operations at the present indices.
@@ -188,24 +189,53 @@ impl<'a> Unrolled<'a> {
         found.copied().ok_or(Refusal::Outside)
     }
 
-    /// The components of a derivative, as sums of its parts.
+    /// The components of a derivative, as sums of its parts in the order of emitted code: in each loop, the parts of inner loops come first.
     pub(crate) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
+        let goals = parts.iter().map(|part| Goal {
+            loops: part.loops.clone(),
+            value: self.operations.of(part.value),
+        });
+        let goals: Vec<_> = goals.collect();
         let mut sums = vec![None; self.dimension()];
-        for part in parts {
-            self.scatter(part, &mut |this, place, value| {
-                sums[place] = Some(match sums[place] {
-                    Some(sum) => this.step(Code::Add, &[sum, value])?,
-                    None => value,
-                });
-                Ok(())
-            })?;
-        }
+        self.follow(&statements(&self.operations, 0, &goals), parts, &mut sums)?;
         sums.into_iter()
             .map(|sum| match sum {
                 Some(sum) => Ok(sum),
                 None => self.constant(0.0),
             })
             .collect()
+    }
+
+    /// Adds the values that statements reach to the components of their parts.
+    fn follow(
+        &mut self,
+        statements: &[Statement],
+        parts: &[Scatter],
+        sums: &mut [Option<Number>],
+    ) -> Result<(), Refusal> {
+        for statement in statements {
+            match statement {
+                Statement::Loop(over, inner) => {
+                    let mut reached = Vec::new();
+                    add_reached(inner, &mut reached);
+                    // Otherwise it is the loop of a sum.
+                    if !reached.is_empty() {
+                        self.each(*over, &reached, &mut |this| this.follow(inner, parts, sums))?;
+                    }
+                }
+                Statement::Reached(place, _) => {
+                    self.reach(&parts[*place], &mut |this, place, value| {
+                        sums[place] = Some(match sums[place] {
+                            Some(sum) => this.step(Code::Add, &[sum, value])?,
+                            None => value,
+                        });
+                        Ok(())
+                    })?;
+                }
+                _ => (),
+            }
+        }
+        Ok(())
     }
 
     /// Calls `work` at every index of the loops of a part, with the component and the value there.
@@ -220,10 +250,15 @@ impl<'a> Unrolled<'a> {
         work: Work<'_, 'a>,
     ) -> Result<(), Refusal> {
         if let Some((&over, inner)) = loops.split_first() {
-            return self.each(over, self.operations.of(part.value), &mut |this| {
+            return self.each(over, &[self.operations.of(part.value)], &mut |this| {
                 this.scatter_in(inner, part, work)
             });
         }
+        self.reach(part, work)
+    }
+
+    /// Calls `work` with the component and the value of a part at the present indices.
+    fn reach(&mut self, part: &Scatter, work: Work<'_, 'a>) -> Result<(), Refusal> {
         let value = self.of(part.value)?;
         let target = &part.target;
         let index = (self.values).index(self.system, &self.indices, &target.index);
@@ -244,12 +279,13 @@ impl<'a> Unrolled<'a> {
 
     /// The operations below `wanted` that vary in a loop, operands first. Restricting to these avoids an infinite
     /// recursion between nested sums.
-    fn needed(&mut self, over: LoopId, wanted: Op) -> Rc<[Op]> {
-        if let Some(needed) = self.needed.get(&(over, wanted)) {
+    fn needed(&mut self, over: LoopId, wanted: &[Op]) -> Rc<[Op]> {
+        let key = (over, wanted.to_vec());
+        if let Some(needed) = self.needed.get(&key) {
             return Rc::clone(needed);
         }
-        let mut below = HashSet::from([wanted]);
-        let mut open = vec![wanted];
+        let mut below: HashSet<Op> = wanted.iter().copied().collect();
+        let mut open = wanted.to_vec();
         while let Some(op) = open.pop() {
             let operands = self.operations.get(op).operands();
             open.extend(operands.into_iter().filter(|op| below.insert(*op)));
@@ -257,15 +293,15 @@ impl<'a> Unrolled<'a> {
         let changing = self.changing.get(&over);
         let needed = changing.iter().flat_map(|all| all.iter()).copied();
         let needed: Rc<[Op]> = needed.filter(|op| below.contains(op)).collect();
-        self.needed.insert((over, wanted), Rc::clone(&needed));
+        self.needed.insert(key, Rc::clone(&needed));
         needed
     }
 
-    /// Calls `work` for every index of a loop, with the value of `wanted` computed.
+    /// Calls `work` for every index of a loop, with the values of `wanted` computed.
     fn each(
         &mut self,
         over: LoopId,
-        wanted: Op,
+        wanted: &[Op],
         work: &mut dyn FnMut(&mut Self) -> Result<(), Refusal>,
     ) -> Result<(), Refusal> {
         let system = self.system;
@@ -417,7 +453,7 @@ impl<'a> Unrolled<'a> {
 
     fn total(&mut self, over: LoopId, body: Op) -> Result<Number, Refusal> {
         let mut sum = None;
-        self.each(over, body, &mut |this| {
+        self.each(over, &[body], &mut |this| {
             let term = *this.known.get(&body).ok_or(Refusal::Outside)?;
             sum = Some(match sum {
                 Some(sum) => this.step(Code::Add, &[sum, term])?,
@@ -465,6 +501,17 @@ impl<'a> Unrolled<'a> {
         let mut list = self.list.clone();
         let used = join_products(&mut list, results);
         Assembly::of(&list, used, results).tape()
+    }
+}
+
+/// Collects the values that statements reach.
+fn add_reached(statements: &[Statement], reached: &mut Vec<Op>) {
+    for statement in statements {
+        match statement {
+            Statement::Loop(_, inner) => add_reached(inner, reached),
+            Statement::Reached(_, value) => reached.push(*value),
+            _ => (),
+        }
     }
 }
 

@@ -7,9 +7,9 @@ use num_traits::Zero;
 
 use crate::contract::HalfChange;
 use crate::number::linear_combination::{Products, shortest, starts, sum_of};
+use crate::number::registers::{self, Widest, Work};
 #[cfg(feature = "alloc")]
 use crate::number::registers::{EightLanes, in_eight_lanes};
-use crate::number::registers::{self, Widest, Work};
 use crate::number::rows::{Eight, Row, WideEight, WidestEight};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -270,7 +270,7 @@ impl<R: Summation> EightLanes for SideBySide<'_, R> {
     fn run<L: Lanes<Array = [f64; STAGES]>>(self) -> (f64, f64) {
         let Self {
             columns,
-            mut out,
+            out,
             terms,
             base,
             low,
@@ -332,7 +332,17 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, count: usize, products: impl 
 
 #[cfg(test)]
 mod tests {
+    #[cfg(feature = "alloc")]
+    use std::{vec, vec::Vec};
+
+    #[cfg(feature = "alloc")]
+    use nalgebra::DVector;
+
     use super::*;
+    #[cfg(feature = "alloc")]
+    use crate::number::array::array;
+    #[cfg(feature = "alloc")]
+    use crate::number::registers::in_eight_lanes_of;
     use crate::number::registers::{Avx2, Avx512};
     use crate::number::summation::Overrelaxed;
     use crate::number::{Compensated, Plain};
@@ -384,6 +394,77 @@ mod tests {
                 assert_eq!(taken!($sums, WidestEight, $terms, work => avx512.run(work)), expected);
             }
         };
+    }
+
+    /// The stages, their largest change and their scale, as bits, row by row; and the same side by side, in these registers.
+    #[cfg(feature = "alloc")]
+    fn by_rows_and_side_by_side<R: Summation>(
+        (stages, count, n): (usize, usize, usize),
+        registers: Widest,
+    ) -> [Vec<u64>; 2] {
+        let numbers = |seed: usize, stage: usize| {
+            let all = rows((97 * seed + stage) as u64 + 11);
+            let numbers = all.as_flattened()[..n].iter();
+            DVector::from_iterator(n, numbers.copied())
+        };
+        let vectors = |seed: usize, count: usize| -> Vec<DVector<f64>> {
+            (0..count).map(|stage| numbers(seed, stage)).collect()
+        };
+        let (base, low, terms) = (numbers(1, 0), numbers(2, 0), vectors(3, count));
+        let factor = |stage: usize, j: usize| 0.3 - 0.7 * stage as f64 + 1.1 * j as f64;
+        let bits = |stages: &[DVector<f64>], [difference, scale]: [f64; 2]| {
+            let stages = stages.iter().flatten().map(|x| x.to_bits());
+            // NaN has many bit patterns.
+            let sizes = [difference, scale].map(|x| x.max(-1.0).to_bits());
+            stages.chain(sizes).collect()
+        };
+        let (mut out, mut change) = (vectors(4, stages), HalfChange::default());
+        for (stage, out) in out.iter_mut().enumerate() {
+            let sum = LinearCombination {
+                count: || count,
+                factor: |j: usize| factor(stage, j),
+                vector: |j: usize| terms[j].as_slice(),
+            };
+            relax_by::<R, _>(out, (&base, &low), n, sum, &mut change);
+        }
+        let by_rows = bits(&out, [change.difference(), change.scale()]);
+        let mut out = vectors(4, stages);
+        let column = |j: usize| array(0.0, |lane| factor(lane.min(stages - 1), j));
+        let columns: Vec<[f64; STAGES]> = (0..count).map(column).collect();
+        let mut places = out.iter_mut();
+        let work = SideBySide::<R> {
+            columns: &columns,
+            out: core::array::from_fn(|_| match places.next() {
+                Some(vector) => vector.as_mut_slice(),
+                None => &mut [],
+            }),
+            terms: core::array::from_fn(|j| terms.get(j).map_or(&[][..], |term| term.as_slice())),
+            base: base.as_slice(),
+            low: low.as_slice(),
+            stages,
+            sums: PhantomData,
+        };
+        let (difference, scale) = in_eight_lanes_of(registers, work);
+        [by_rows, bits(&out, [difference, scale])]
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn stages_side_by_side_have_the_bits_of_rows() {
+        let mut registers = vec![Widest::Build];
+        registers.extend(Avx2::detect().map(Widest::Avx2));
+        registers.extend(Avx512::detect().map(Widest::Avx512));
+        for registers in registers {
+            for size in (1..=8).flat_map(|s| [(s, s, 1), (s, 9 - s, 7), (s, s, 8), (s, s, 31)]) {
+                let [rows, lanes] = by_rows_and_side_by_side::<Plain>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+                let [rows, lanes] = by_rows_and_side_by_side::<Compensated>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+                let [rows, lanes] =
+                    by_rows_and_side_by_side::<Overrelaxed<Compensated>>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+            }
+        }
     }
 
     #[test]

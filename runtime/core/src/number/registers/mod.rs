@@ -150,12 +150,18 @@ impl<W: EightLanes, L: Lanes<Array = [f64; 8]>> Work for InLanes<W, L> {
 /// Runs work in the widest registers of the processor.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn in_eight_lanes<W: EightLanes>(work: W) -> W::Output {
-    // A constant condition: other builds compile without the other branches.
-    let widest = match UNKNOWN {
+    // A constant condition: other builds compile without code for registers that are found.
+    let registers = match UNKNOWN {
         true => Widest::find(),
         false => Widest::Build,
     };
-    match widest {
+    in_eight_lanes_of(registers, work)
+}
+
+/// Runs work in these registers.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn in_eight_lanes_of<W: EightLanes>(registers: Widest, work: W) -> W::Output {
+    match registers {
         Widest::Build => work.run::<F64x8>(),
         Widest::Avx2(avx2) => avx2.run(InLanes::<W, WideF64x8>(work, PhantomData)),
         Widest::Avx512(avx512) => avx512.run(InLanes::<W, WidestF64x8>(work, PhantomData)),
