@@ -3,6 +3,7 @@
 use alloc::sync::Arc;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::array;
 
 use symplectic_core::inside::rows::{CoupledRows, Evaluation, HalfRows, Kind, MAX_EVALUATIONS};
 use symplectic_core::inside::two_sum;
@@ -247,6 +248,7 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
     };
     HalfRows {
         rows: matrix.iter().map(row).collect(),
+        columns: columns(matrix),
         matrix: matrix.to_vec(),
         counting: (0..evaluations.len())
             .filter(|&i| evaluations[i].counts)
@@ -254,6 +256,16 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
         extrapolation: extrapolation(evaluations),
         evaluations: evaluations.to_vec(),
     }
+}
+
+/// The columns of a matrix that has at most eight rows and no zeros, as in Gauss methods; otherwise none.
+fn columns(matrix: &[Vec<f64>]) -> Vec<[f64; 8]> {
+    let is_full = matrix.iter().flatten().all(|entry| *entry != 0.0);
+    let (Some(last), true) = (matrix.len().checked_sub(1), is_full && matrix.len() <= 8) else {
+        return Vec::new();
+    };
+    let column = |j: usize| array::from_fn(|lane| matrix[lane.min(last)][j]);
+    (0..matrix[0].len()).map(column).collect()
 }
 
 /// The matrix that extrapolates increments: the polynomial through the evaluations of a step, at the times of the next step.

@@ -36,7 +36,9 @@ pub use crate::method::{
 pub use crate::number::array::array;
 pub use crate::number::dither::{dither_last_sweep, dither_side};
 pub use crate::number::linear_combination::{add_products, totals_by};
-pub use crate::number::registers::{Avx2, Avx512, Widest, Work};
+pub use crate::number::registers::{
+    Avx2, Avx512, EightLanes, Widest, Work, in_eight_lanes, in_eight_lanes_of,
+};
 pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add, add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same, same_mut};

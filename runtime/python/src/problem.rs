@@ -276,10 +276,11 @@ impl Problem {
     pub(crate) fn coordinate(&self, key: &str, text: &str) -> PyResult<(Half, usize)> {
         let tape = self.expression(key, text)?;
         let refused = || errors::argument(format!("`{text}` is no coordinate"));
-        let [input] = tape.inputs() else {
+        let inputs: Vec<_> = tape.inputs().collect();
+        let [input] = inputs[..] else {
             return Err(refused());
         };
-        match *input {
+        match input {
             symplectic_tape::Input::Position(k) => Ok((Half::Q, k)),
             symplectic_tape::Input::Momentum(k) => Ok((Half::P, k)),
             _ => Err(refused()),
@@ -353,24 +354,12 @@ impl<'a> States<'a> {
     }
 
     fn values(&self, tape: &Tape) -> Vec<f64> {
-        let mut found = vec![0.0; self.count];
-        let write = |found: &mut [f64], first: usize, row: usize, _: usize, value| {
-            found[first + row] = value;
+        let same = (self.varied.len() == self.width).then(|| self.parameters(0));
+        let value = |row: usize| match &same {
+            Some(parameters) => tape.value(self.at(parameters, row)),
+            None => tape.value(self.at(&self.parameters(row), row)),
         };
-        if self.varied.len() == self.width {
-            let parameters = self.parameters(0);
-            let at = |row| self.at(&parameters, row);
-            tape.run(self.count, at, |row, k, value| {
-                write(&mut found, 0, row, k, value)
-            });
-            return found;
-        }
-        for row in 0..self.count {
-            let parameters = self.parameters(row);
-            let at = |_| self.at(&parameters, row);
-            tape.run(1, at, |_, k, value| write(&mut found, row, 0, k, value));
-        }
-        found
+        (0..self.count).map(value).collect()
     }
 }
 

@@ -162,8 +162,7 @@ impl Completion<'_> {
         let refused = |message: String| Err(self.file.error(span.clone(), message));
         let half = self.coordinates.dimension();
         let needs = |tape: &Tape| -> Vec<usize> {
-            let inputs = tape.inputs().iter();
-            let places = inputs.filter_map(|input| match *input {
+            let places = tape.inputs().filter_map(|input| match input {
                 Input::Position(k) => Some(k),
                 Input::Momentum(k) => Some(half + k),
                 Input::Constant(_) | Input::Time | Input::Parameter(_) => None,

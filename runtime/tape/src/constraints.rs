@@ -7,6 +7,7 @@ use symplectic_formula::System;
 use symplectic_formula::derivative::{Scatter, gradient};
 use symplectic_formula::graph::{Coordinate, Half, Index, integer};
 
+use crate::interpreter::copy_to;
 use crate::tape::{At, Parameters, Tape};
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;
@@ -139,12 +140,8 @@ impl Constraints {
 
     /// φ(q)
     pub(crate) fn values<T: Scalar>(&self, parameters: &Parameters, q: &[T], out: &mut [T]) {
-        let write = |_, k: usize, value| {
-            if let Some(place) = out.get_mut(k) {
-                *place = value;
-            }
-        };
-        self.values.run(1, |_| at(parameters, q), write);
+        let write = |to: usize, values: &[T]| copy_to(out, to, values);
+        self.values.run(at(parameters, q), write);
     }
 
     /// Calls `set` with constraint, component and value of each entry of ∂φ/∂q or w.
@@ -154,12 +151,12 @@ impl Constraints {
         q: &[T],
         mut set: impl FnMut(usize, usize, T),
     ) {
-        let write = |_, k: usize, value| {
-            if let Some(&(constraint, component)) = self.places.get(k) {
-                set(constraint, component, value);
+        let write = |to: usize, values: &[T]| {
+            for (&(constraint, component), value) in self.places.iter().skip(to).zip(values) {
+                set(constraint, component, *value);
             }
         };
-        self.entries.run(1, |_| at(parameters, q), write);
+        self.entries.run(at(parameters, q), write);
     }
 
     /// Sets ∂φ/∂q or w.

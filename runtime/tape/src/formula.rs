@@ -2,7 +2,6 @@
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
-use std::slice;
 use std::sync::Arc;
 
 use symplectic::constraints::{
@@ -19,6 +18,7 @@ use symplectic_formula::graph::{Half, integer};
 use symplectic_formula::{Structure, System};
 
 use crate::constraints::Constraints;
+use crate::interpreter::copy_to;
 use crate::tape::{At, Input, Parameters, Tape};
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;
@@ -99,7 +99,7 @@ impl Tapes {
 
     /// Whether H is conserved along trajectories without any error.
     pub fn energy_is_conserved(&self) -> bool {
-        let has_time = self.energy.inputs.contains(&Input::Time);
+        let has_time = self.energy.inputs().any(|input| input == Input::Time);
         !has_time && self.factors.is_none() && self.applied.is_none()
     }
 
@@ -117,8 +117,8 @@ impl Tapes {
             q: &[],
             p: &[],
         };
-        let mut factors = vec![1.0; tape.results.len()];
-        tape.run(1, |_| at, |_, k, value| factors[k] = value);
+        let mut factors = vec![1.0; tape.results];
+        tape.run(at, |to, values| copy_to(&mut factors, to, values));
         Some(factors)
     }
 
@@ -130,8 +130,8 @@ impl Tapes {
     /// The velocity at a point.
     pub fn velocity_at(&self, point: At<'_, f64>) -> Vec<f64> {
         let mut velocity = vec![0.0; point.q.len()];
-        self.velocity
-            .run(1, |_| point, |_, k, value| velocity[k] = value);
+        let write = |to: usize, values: &[f64]| copy_to(&mut velocity, to, values);
+        self.velocity.run(point, write);
         velocity
     }
 
@@ -143,34 +143,6 @@ impl Tapes {
 
 /// A time, with the positions and the momenta.
 type Point<'a, T> = (T, &'a DVector<T>, &'a DVector<T>);
-
-#[inline(always)]
-fn at<'a, T: Scalar>(parameters: &'a Parameters, (time, q, p): Point<'a, T>) -> At<'a, T> {
-    At {
-        parameters,
-        time,
-        q: q.as_slice(),
-        p: p.as_slice(),
-    }
-}
-
-/// Writes the results at each point into its vector.
-#[inline(always)]
-fn fill<'a: 'p, 'p, T: Scalar>(
-    (tape, parameters): (&Tape, &'p Parameters),
-    point: impl Fn(usize) -> Point<'a, T>,
-    vectors: &mut [DVector<T>],
-) {
-    tape.run(
-        vectors.len(),
-        |k| at(parameters, point(k)),
-        |vector, k, value| {
-            if let Some(component) = vectors[vector].as_mut_slice().get_mut(k) {
-                *component = value;
-            }
-        },
-    );
-}
 
 /// Fills vectors with NaN, so that a step fails.
 #[cold]
@@ -220,6 +192,16 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
     }
 
     #[inline(always)]
+    fn at<'a, T: Scalar>(&'a self, (time, q, p): Point<'a, T>) -> At<'a, T> {
+        At {
+            parameters: &self.parameters,
+            time,
+            q: q.as_slice(),
+            p: p.as_slice(),
+        }
+    }
+
+    #[inline(always)]
     fn goes_on<T: Scalar>(&self, time: T) -> bool {
         self.watch.as_ref().is_none_or(|watch| {
             let elapsed = time - T::from_f64(watch.start());
@@ -261,6 +243,7 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     type Vector<T: Scalar> = DVector<T>;
 
     const JOINS: bool = true;
+    const INLINED: bool = true;
     const FORCED: bool = FORCED;
 
     fn in_lanes<V: Vector, L: Lanes, K: LaneWork<V, Self, L>>(work: K) -> K::Output
@@ -284,11 +267,18 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     }
 
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        self.velocities(|_| (time, q, p), slice::from_mut(out));
+        let out = out.as_mut_slice();
+        let write = |to: usize, values: &[T]| copy_to(out, to, values);
+        self.tapes.velocity.run(self.at((time, q, p)), write);
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        self.forces(|_| (time, q, p), slice::from_mut(out));
+        if !self.goes_on(time) {
+            return stop([out]);
+        }
+        let out = out.as_mut_slice();
+        let write = |to: usize, values: &[T]| copy_to(out, to, values);
+        self.tapes.force.run(self.at((time, q, p)), write);
     }
 
     fn velocities<'a, T: Scalar>(
@@ -296,14 +286,16 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
         at: impl Fn(usize) -> Point<'a, T>,
         out: &mut [DVector<T>],
     ) {
-        fill((&self.tapes.velocity, &self.parameters), at, out);
+        let point = |k: usize| self.at(at(k));
+        self.tapes.velocity.fill(point, out);
     }
 
     fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
         if !out.is_empty() && !self.goes_on(at(0).0) {
             return stop(out);
         }
-        fill((&self.tapes.force, &self.parameters), at, out);
+        let point = |k: usize| self.at(at(k));
+        self.tapes.force.fill(point, out);
     }
 
     fn slopes<T: Scalar>(
@@ -318,22 +310,20 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
         }
         let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
         let count = velocity.len();
-        let write = |_, k: usize, value| {
-            let component = match k.checked_sub(count) {
-                None => velocity.get_mut(k),
-                Some(k) => force.get_mut(k),
-            };
-            if let Some(component) = component {
-                *component = value;
+        let write = |to: usize, values: &[T]| match to.checked_sub(count) {
+            Some(to) => copy_to(force, to, values),
+            None => {
+                let (first, rest) = values.split_at(values.len().min(count - to));
+                copy_to(velocity, to, first);
+                copy_to(force, 0, rest);
             }
         };
-        let at = |_| at(&self.parameters, (time, q, p));
-        self.tapes.slopes.run(1, at, write);
+        self.tapes.slopes.run(self.at((time, q, p)), write);
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
         // With friction the momenta of the states have factors, and the energy is not conserved.
-        let energy = || self.tapes.energy_at(at(&self.parameters, (time, q, p)));
+        let energy = || self.tapes.energy_at(self.at((time, q, p)));
         self.tapes.factors.is_none().then(energy)
     }
 
@@ -346,8 +336,10 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     ) {
         match &self.tapes.applied {
             Some(tape) if FORCED => {
-                let point = |_| (time, q, p);
-                fill((tape, &self.parameters), point, slice::from_mut(applied));
+                let applied = applied.as_mut_slice();
+                tape.run(self.at((time, q, p)), |to, values| {
+                    copy_to(applied, to, values);
+                });
             }
             _ => applied.fill(T::zero()),
         }

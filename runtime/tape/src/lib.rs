@@ -29,8 +29,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod assembly;
 mod constraints;
 mod formula;
+mod interpreter;
+mod operation;
 mod tape;
 mod unroll;
 mod values;

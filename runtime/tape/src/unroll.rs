@@ -1,6 +1,6 @@
 //! From a formula to a tape: unrolls loops, substitutes parameters, and shares common subexpressions.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
@@ -11,8 +11,11 @@ use symplectic_formula::evaluate::Real;
 use symplectic_formula::function::Elementary;
 use symplectic_formula::graph::{Half, Id, LoopId};
 use symplectic_formula::operations::{Op, Operation, Operations};
+use symplectic_formula::statements::{Goal, Statement, statements};
 
-use crate::tape::{Code, Input, Register, Step, Tape, apply};
+use crate::assembly::{Assembly, join_products};
+use crate::operation::{Code, apply};
+use crate::tape::Tape;
 use crate::values::{Entry, Indices, Values};
 
 /// Largest number of operations of a formula with unrolled loops.
@@ -50,7 +53,7 @@ pub(crate) type Number = u32;
 
 /// A value of an unrolled formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Value {
+pub(crate) enum Value {
     /// A constant, by its bits.
     Constant(u64),
     Time,
@@ -71,8 +74,8 @@ pub(crate) struct Unrolled<'a> {
     operations: Operations<'a>,
     /// The operations that vary in each loop, in order.
     changing: HashMap<LoopId, Rc<[Op]>>,
-    /// For an operation in a loop, the operations below it that vary in the loop.
-    needed: HashMap<(LoopId, Op), Rc<[Op]>>,
+    /// For operations in a loop, the operations below them that vary in the loop.
+    needed: HashMap<(LoopId, Vec<Op>), Rc<[Op]>>,
     indices: Indices,
     bound: u64,
     /// The values of operations at the present indices.
@@ -186,24 +189,53 @@ impl<'a> Unrolled<'a> {
         found.copied().ok_or(Refusal::Outside)
     }
 
-    /// The components of a derivative, as sums of its parts.
+    /// The components of a derivative, as sums of its parts in the order of emitted code: in each loop, the parts of inner loops come first.
     pub(crate) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
+        let goals = parts.iter().map(|part| Goal {
+            loops: part.loops.clone(),
+            value: self.operations.of(part.value),
+        });
+        let goals: Vec<_> = goals.collect();
         let mut sums = vec![None; self.dimension()];
-        for part in parts {
-            self.scatter(part, &mut |this, place, value| {
-                sums[place] = Some(match sums[place] {
-                    Some(sum) => this.step(Code::Add, &[sum, value])?,
-                    None => value,
-                });
-                Ok(())
-            })?;
-        }
+        self.follow(&statements(&self.operations, 0, &goals), parts, &mut sums)?;
         sums.into_iter()
             .map(|sum| match sum {
                 Some(sum) => Ok(sum),
                 None => self.constant(0.0),
             })
             .collect()
+    }
+
+    /// Adds the values that statements reach to the components of their parts.
+    fn follow(
+        &mut self,
+        statements: &[Statement],
+        parts: &[Scatter],
+        sums: &mut [Option<Number>],
+    ) -> Result<(), Refusal> {
+        for statement in statements {
+            match statement {
+                Statement::Loop(over, inner) => {
+                    let mut reached = Vec::new();
+                    add_reached(inner, &mut reached);
+                    // Otherwise it is the loop of a sum.
+                    if !reached.is_empty() {
+                        self.each(*over, &reached, &mut |this| this.follow(inner, parts, sums))?;
+                    }
+                }
+                Statement::Reached(place, _) => {
+                    self.reach(&parts[*place], &mut |this, place, value| {
+                        sums[place] = Some(match sums[place] {
+                            Some(sum) => this.step(Code::Add, &[sum, value])?,
+                            None => value,
+                        });
+                        Ok(())
+                    })?;
+                }
+                _ => (),
+            }
+        }
+        Ok(())
     }
 
     /// Calls `work` at every index of the loops of a part, with the component and the value there.
@@ -218,10 +250,15 @@ impl<'a> Unrolled<'a> {
         work: Work<'_, 'a>,
     ) -> Result<(), Refusal> {
         if let Some((&over, inner)) = loops.split_first() {
-            return self.each(over, self.operations.of(part.value), &mut |this| {
+            return self.each(over, &[self.operations.of(part.value)], &mut |this| {
                 this.scatter_in(inner, part, work)
             });
         }
+        self.reach(part, work)
+    }
+
+    /// Calls `work` with the component and the value of a part at the present indices.
+    fn reach(&mut self, part: &Scatter, work: Work<'_, 'a>) -> Result<(), Refusal> {
         let value = self.of(part.value)?;
         let target = &part.target;
         let index = (self.values).index(self.system, &self.indices, &target.index);
@@ -242,12 +279,13 @@ impl<'a> Unrolled<'a> {
 
     /// The operations below `wanted` that vary in a loop, operands first. Restricting to these avoids an infinite
     /// recursion between nested sums.
-    fn needed(&mut self, over: LoopId, wanted: Op) -> Rc<[Op]> {
-        if let Some(needed) = self.needed.get(&(over, wanted)) {
+    fn needed(&mut self, over: LoopId, wanted: &[Op]) -> Rc<[Op]> {
+        let key = (over, wanted.to_vec());
+        if let Some(needed) = self.needed.get(&key) {
             return Rc::clone(needed);
         }
-        let mut below = HashSet::from([wanted]);
-        let mut open = vec![wanted];
+        let mut below: HashSet<Op> = wanted.iter().copied().collect();
+        let mut open = wanted.to_vec();
         while let Some(op) = open.pop() {
             let operands = self.operations.get(op).operands();
             open.extend(operands.into_iter().filter(|op| below.insert(*op)));
@@ -255,15 +293,15 @@ impl<'a> Unrolled<'a> {
         let changing = self.changing.get(&over);
         let needed = changing.iter().flat_map(|all| all.iter()).copied();
         let needed: Rc<[Op]> = needed.filter(|op| below.contains(op)).collect();
-        self.needed.insert((over, wanted), Rc::clone(&needed));
+        self.needed.insert(key, Rc::clone(&needed));
         needed
     }
 
-    /// Calls `work` for every index of a loop, with the value of `wanted` computed.
+    /// Calls `work` for every index of a loop, with the values of `wanted` computed.
     fn each(
         &mut self,
         over: LoopId,
-        wanted: Op,
+        wanted: &[Op],
         work: &mut dyn FnMut(&mut Self) -> Result<(), Refusal>,
     ) -> Result<(), Refusal> {
         let system = self.system;
@@ -415,7 +453,7 @@ impl<'a> Unrolled<'a> {
 
     fn total(&mut self, over: LoopId, body: Op) -> Result<Number, Refusal> {
         let mut sum = None;
-        self.each(over, body, &mut |this| {
+        self.each(over, &[body], &mut |this| {
             let term = *this.known.get(&body).ok_or(Refusal::Outside)?;
             sum = Some(match sum {
                 Some(sum) => this.step(Code::Add, &[sum, term])?,
@@ -462,7 +500,18 @@ impl<'a> Unrolled<'a> {
     pub(crate) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
         let mut list = self.list.clone();
         let used = join_products(&mut list, results);
-        Assembly::new(&list, &used, results).tape()
+        Assembly::of(&list, used, results).tape()
+    }
+}
+
+/// Collects the values that statements reach.
+fn add_reached(statements: &[Statement], reached: &mut Vec<Op>) {
+    for statement in statements {
+        match statement {
+            Statement::Loop(_, inner) => add_reached(inner, reached),
+            Statement::Reached(_, value) => reached.push(*value),
+            _ => (),
+        }
     }
 }
 
@@ -479,151 +528,5 @@ fn elementary(function: Elementary) -> Code {
         Elementary::Sinh => Code::Sinh,
         Elementary::Cosh => Code::Cosh,
         Elementary::Tanh => Code::Tanh,
-    }
-}
-
-/// The number of uses of each value for the given results.
-fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
-    let mut uses = vec![0; list.len()];
-    for &result in results {
-        uses[result as usize] += 1;
-    }
-    for number in (0..list.len()).rev() {
-        if uses[number] > 0
-            && let Value::Step(code, operands) = list[number]
-        {
-            for &operand in &operands[..arity(code)] {
-                uses[operand as usize] += 1;
-            }
-        }
-    }
-    uses
-}
-
-/// Fuses a sum and a product that only this sum uses into one operation, with the same rounding; returns the new number
-/// of uses.
-fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
-    let before = uses(list, results);
-    for number in 0..list.len() {
-        let Value::Step(code @ (Code::Add | Code::Subtract), [left, right, _]) = list[number]
-        else {
-            continue;
-        };
-        let product = |of: Number| match list[of as usize] {
-            Value::Step(Code::Multiply, [a, b, _]) if before[of as usize] == 1 => Some([a, b]),
-            _ => None,
-        };
-        let joined = match (code, product(left), product(right)) {
-            (Code::Add, Some([a, b]), _) => Some((Code::MultiplyAdd, [a, b, right])),
-            (Code::Add, None, Some([a, b])) => Some((Code::MultiplyAdd, [a, b, left])),
-            (Code::Subtract, Some([a, b]), _) => Some((Code::MultiplySubtract, [a, b, right])),
-            (Code::Subtract, None, Some([a, b])) => Some((Code::SubtractProduct, [a, b, left])),
-            _ => None,
-        };
-        if let Some((code, operands)) = joined {
-            list[number] = Value::Step(code, operands);
-        }
-    }
-    uses(list, results)
-}
-
-/// The number of operands of an operation.
-fn arity(code: Code) -> usize {
-    match code {
-        Code::MultiplyAdd | Code::MultiplySubtract | Code::SubtractProduct => 3,
-        Code::Add | Code::Subtract | Code::Multiply | Code::Divide | Code::OrZero | Code::Atan2 => {
-            2
-        }
-        _ => 1,
-    }
-}
-
-/// Register allocation.
-struct Assembly<'a> {
-    list: &'a [Value],
-    results: &'a [Number],
-    /// The number of remaining uses of each value.
-    left: Vec<usize>,
-    registers: BTreeMap<Number, Register>,
-    free: Vec<Register>,
-    tape: Tape,
-}
-
-impl<'a> Assembly<'a> {
-    fn new(list: &'a [Value], uses: &[usize], results: &'a [Number]) -> Self {
-        Assembly {
-            list,
-            results,
-            left: uses.to_vec(),
-            registers: BTreeMap::new(),
-            free: Vec::new(),
-            tape: Tape::default(),
-        }
-    }
-
-    fn tape(mut self) -> Result<Tape, Refusal> {
-        for (number, value) in self.list.iter().enumerate() {
-            let input = match *value {
-                Value::Step(..) => continue,
-                Value::Constant(bits) => Input::Constant(f64::from_bits(bits)),
-                Value::Time => Input::Time,
-                Value::Position(k) => Input::Position(k),
-                Value::Momentum(k) => Input::Momentum(k),
-                Value::Parameter(k) => Input::Parameter(k),
-            };
-            if self.left[number] > 0 {
-                let register = self.new_register()?;
-                self.registers.insert(number as Number, register);
-                self.tape.inputs.push(input);
-            }
-        }
-        for (number, value) in self.list.iter().enumerate() {
-            let Value::Step(code, operands) = *value else {
-                continue;
-            };
-            if self.left[number] == 0 {
-                continue;
-            }
-            if self.tape.steps.len() == MAX_OPERATIONS {
-                return Err(Refusal::TooLong);
-            }
-            let places = operands.map(|operand| self.registers.get(&operand).copied());
-            let operands = &operands[..arity(code)];
-            let first = places[0].unwrap_or_default();
-            let places = places.map(|place| place.unwrap_or(first));
-            for operand in operands {
-                self.release(*operand);
-            }
-            let into = match self.free.pop() {
-                Some(register) => register,
-                None => self.new_register()?,
-            };
-            self.registers.insert(number as Number, into);
-            self.tape.steps.push(Step {
-                code,
-                into,
-                operands: places,
-            });
-        }
-        let place = |result| self.registers.get(result).copied().ok_or(Refusal::Outside);
-        self.tape.results = self.results.iter().map(place).collect::<Result<_, _>>()?;
-        Ok(self.tape)
-    }
-
-    /// Counts a use of an operand; after its last use its register is free.
-    fn release(&mut self, operand: Number) {
-        let left = &mut self.left[operand as usize];
-        *left -= 1;
-        if *left == 0
-            && let Some(register) = self.registers.remove(&operand)
-        {
-            self.free.push(register);
-        }
-    }
-
-    fn new_register(&mut self) -> Result<Register, Refusal> {
-        let register = Register::try_from(self.tape.registers).map_err(|_| Refusal::TooLong)?;
-        self.tape.registers += 1;
-        Ok(register)
     }
 }

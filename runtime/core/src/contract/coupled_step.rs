@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use crate::contract::relax::{LinearCombination, relax_by};
+use crate::contract::relax::{LinearCombination, relax_by, relax_side_by_side};
 use crate::contract::rows::{CoupledRows, HalfRows, MAX_EVALUATIONS};
 use crate::contract::{EvaluationCounts, HalfChange, Outcome, Step, System};
 use crate::number::linear_combination::{shortest, sum_of_products, totals_by};
@@ -95,6 +95,9 @@ impl HalfRows {
         increments: &[V],
         change: &mut HalfChange,
     ) {
+        if relax_side_by_side::<R, V>(&self.columns, out, (base, low), increments, change) {
+            return;
+        }
         let increment = |index: usize| increments[index].as_slice();
         for (row, out) in self.rows.iter().zip(out) {
             let lengths = row.iter().map(|&(index, _)| increment(index).len());

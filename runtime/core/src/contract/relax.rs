@@ -8,6 +8,8 @@ use num_traits::Zero;
 use crate::contract::HalfChange;
 use crate::number::linear_combination::{Products, shortest, starts, sum_of};
 use crate::number::registers::{self, Widest, Work};
+#[cfg(feature = "alloc")]
+use crate::number::registers::{EightLanes, in_eight_lanes};
 use crate::number::rows::{Eight, Row, WideEight, WidestEight};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -197,6 +199,128 @@ where
     }
 }
 
+/// The largest number of stages that are computed side by side, as many as there are lanes.
+#[cfg(feature = "alloc")]
+const STAGES: usize = 8;
+
+/// All stages of short vectors of doubles side by side; `columns` has the factors of each term. Returns `false`, and does nothing, for other
+/// vectors. The bits are those of [`relax_by`].
+#[cfg(feature = "alloc")]
+#[inline]
+pub(super) fn relax_side_by_side<R: Summation, V: Vector>(
+    columns: &[[f64; STAGES]],
+    out: &mut [V],
+    (base, low): (&V, &V),
+    terms: &[V],
+    change: &mut HalfChange,
+) -> bool {
+    let n = shortest([base, low])
+        .min(shortest(terms))
+        .min(shortest(&*out));
+    let (stages, count) = (out.len(), terms.len());
+    let is_short = n < registers::LONG && count <= STAGES && stages <= STAGES;
+    let (Some(base), Some(low)) = (
+        V::Scalar::doubles(base.as_slice()),
+        V::Scalar::doubles(low.as_slice()),
+    ) else {
+        return false;
+    };
+    if columns.is_empty() || columns.len() != count || !is_short {
+        return false;
+    }
+    let mut places = out.iter_mut();
+    let mut vectors = terms.iter();
+    let (difference, scale) = in_eight_lanes(SideBySide::<R> {
+        columns,
+        out: core::array::from_fn(|_| {
+            let vector = places.next().map(V::as_mut_slice);
+            let doubles = vector.and_then(V::Scalar::doubles_mut);
+            doubles.unwrap_or(&mut [])
+        }),
+        terms: core::array::from_fn(|_| {
+            let vector = vectors.next().map(V::as_slice);
+            vector.and_then(V::Scalar::doubles).unwrap_or(&[])
+        }),
+        base: &base[..n],
+        low: &low[..n],
+        stages,
+        sums: PhantomData,
+    });
+    change.join(difference, scale);
+    true
+}
+
+/// Stages in lanes.
+#[cfg(feature = "alloc")]
+struct SideBySide<'a, R> {
+    columns: &'a [[f64; STAGES]],
+    out: [&'a mut [f64]; STAGES],
+    terms: [&'a [f64]; STAGES],
+    base: &'a [f64],
+    low: &'a [f64],
+    stages: usize,
+    sums: PhantomData<R>,
+}
+
+#[cfg(feature = "alloc")]
+impl<R: Summation> EightLanes for SideBySide<'_, R> {
+    type Output = (f64, f64);
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<L: Lanes<Array = [f64; STAGES]>>(self) -> (f64, f64) {
+        let Self {
+            columns,
+            out,
+            terms,
+            base,
+            low,
+            stages,
+            ..
+        } = self;
+        // One for each stage: they need not wait for one another.
+        let mut changes = [HalfChange::default(); STAGES];
+        for k in 0..base.len() {
+            let products = OfComponent {
+                k,
+                columns,
+                terms: &terms,
+            };
+            let (start, low) = (L::from_f64(base[k]), L::from_f64(low[k]));
+            let new = value::<R, L>(start, low, columns.len(), products).to_array();
+            for stage in 0..stages.min(STAGES) {
+                let old = out[stage][k];
+                let new = moved(R::OVERRELAXED, old, new[stage]);
+                changes[stage].record(base[k], old, new);
+                out[stage][k] = new;
+            }
+        }
+        let mut all = HalfChange::default();
+        for change in changes {
+            all.join(change.difference(), change.scale());
+        }
+        (all.difference(), all.scale())
+    }
+}
+
+/// The products of one component, for all stages.
+#[cfg(feature = "alloc")]
+struct OfComponent<'a> {
+    k: usize,
+    columns: &'a [[f64; STAGES]],
+    terms: &'a [&'a [f64]; STAGES],
+}
+
+#[cfg(feature = "alloc")]
+impl<L: Lanes<Array = [f64; STAGES]>> Products<L> for OfComponent<'_> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn product(&self, j: usize) -> (L, L) {
+        (
+            L::from_array(self.columns[j]),
+            L::from_f64(self.terms[j][self.k]),
+        )
+    }
+}
+
 /// One component of a stage, or eight components side by side.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn value<R: Summation, T: Scalar>(base: T, low: T, count: usize, products: impl Products<T>) -> T {
@@ -208,7 +332,17 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, count: usize, products: impl 
 
 #[cfg(test)]
 mod tests {
+    #[cfg(feature = "alloc")]
+    use std::{vec, vec::Vec};
+
+    #[cfg(feature = "alloc")]
+    use nalgebra::DVector;
+
     use super::*;
+    #[cfg(feature = "alloc")]
+    use crate::number::array::array;
+    #[cfg(feature = "alloc")]
+    use crate::number::registers::in_eight_lanes_of;
     use crate::number::registers::{Avx2, Avx512};
     use crate::number::summation::Overrelaxed;
     use crate::number::{Compensated, Plain};
@@ -260,6 +394,77 @@ mod tests {
                 assert_eq!(taken!($sums, WidestEight, $terms, work => avx512.run(work)), expected);
             }
         };
+    }
+
+    /// The stages, their largest change and their scale, as bits, row by row; and the same side by side, in these registers.
+    #[cfg(feature = "alloc")]
+    fn by_rows_and_side_by_side<R: Summation>(
+        (stages, count, n): (usize, usize, usize),
+        registers: Widest,
+    ) -> [Vec<u64>; 2] {
+        let numbers = |seed: usize, stage: usize| {
+            let all = rows((97 * seed + stage) as u64 + 11);
+            let numbers = all.as_flattened()[..n].iter();
+            DVector::from_iterator(n, numbers.copied())
+        };
+        let vectors = |seed: usize, count: usize| -> Vec<DVector<f64>> {
+            (0..count).map(|stage| numbers(seed, stage)).collect()
+        };
+        let (base, low, terms) = (numbers(1, 0), numbers(2, 0), vectors(3, count));
+        let factor = |stage: usize, j: usize| 0.3 - 0.7 * stage as f64 + 1.1 * j as f64;
+        let bits = |stages: &[DVector<f64>], [difference, scale]: [f64; 2]| {
+            let stages = stages.iter().flatten().map(|x| x.to_bits());
+            // NaN has many bit patterns.
+            let sizes = [difference, scale].map(|x| x.max(-1.0).to_bits());
+            stages.chain(sizes).collect()
+        };
+        let (mut out, mut change) = (vectors(4, stages), HalfChange::default());
+        for (stage, out) in out.iter_mut().enumerate() {
+            let sum = LinearCombination {
+                count: || count,
+                factor: |j: usize| factor(stage, j),
+                vector: |j: usize| terms[j].as_slice(),
+            };
+            relax_by::<R, _>(out, (&base, &low), n, sum, &mut change);
+        }
+        let by_rows = bits(&out, [change.difference(), change.scale()]);
+        let mut out = vectors(4, stages);
+        let column = |j: usize| array(0.0, |lane| factor(lane.min(stages - 1), j));
+        let columns: Vec<[f64; STAGES]> = (0..count).map(column).collect();
+        let mut places = out.iter_mut();
+        let work = SideBySide::<R> {
+            columns: &columns,
+            out: core::array::from_fn(|_| match places.next() {
+                Some(vector) => vector.as_mut_slice(),
+                None => &mut [],
+            }),
+            terms: core::array::from_fn(|j| terms.get(j).map_or(&[][..], |term| term.as_slice())),
+            base: base.as_slice(),
+            low: low.as_slice(),
+            stages,
+            sums: PhantomData,
+        };
+        let (difference, scale) = in_eight_lanes_of(registers, work);
+        [by_rows, bits(&out, [difference, scale])]
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn stages_side_by_side_have_the_bits_of_rows() {
+        let mut registers = vec![Widest::Build];
+        registers.extend(Avx2::detect().map(Widest::Avx2));
+        registers.extend(Avx512::detect().map(Widest::Avx512));
+        for registers in registers {
+            for size in (1..=8).flat_map(|s| [(s, s, 1), (s, 9 - s, 7), (s, s, 8), (s, s, 31)]) {
+                let [rows, lanes] = by_rows_and_side_by_side::<Plain>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+                let [rows, lanes] = by_rows_and_side_by_side::<Compensated>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+                let [rows, lanes] =
+                    by_rows_and_side_by_side::<Overrelaxed<Compensated>>(size, registers);
+                assert_eq!(rows, lanes, "{size:?}, {registers:?}");
+            }
+        }
     }
 
     #[test]

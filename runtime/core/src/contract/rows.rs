@@ -42,6 +42,8 @@ pub struct HalfRows {
     pub matrix: Vec<Vec<f64>>,
     /// Its nonzero entries.
     pub rows: Vec<Row>,
+    /// The matrix by columns, if it has at most eight rows and no zeros; otherwise empty. The last stage is repeated to fill the lanes.
+    pub columns: Vec<[f64; 8]>,
     /// For each stage value, the evaluation there.
     pub evaluations: Vec<Evaluation>,
     /// The indices of the evaluations that enter the result of the step.

@@ -44,7 +44,9 @@ pub(crate) use wide::{
 #[cfg(test)]
 mod tests;
 
-use crate::number::Scalar;
+use core::marker::PhantomData;
+
+use crate::number::{F64x8, Lanes, Scalar, WideF64x8, WidestF64x8};
 
 /// Work to be compiled for wide registers. Its function and everything that it calls have to be inlined. Closures may not be inlined, so it
 /// calls none that computes with vectors.
@@ -121,5 +123,47 @@ pub(crate) fn in_widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output 
         }
     } else {
         work.run()
+    }
+}
+
+/// Work on eight doubles at a time, in any lanes. As for [`Work`], everything that it calls has to be inlined.
+pub trait EightLanes {
+    /// The result of the work.
+    type Output;
+
+    /// Does the work.
+    fn run<L: Lanes<Array = [f64; 8]>>(self) -> Self::Output;
+}
+
+/// [`EightLanes`] in lanes `L`.
+struct InLanes<W, L>(W, PhantomData<L>);
+
+impl<W: EightLanes, L: Lanes<Array = [f64; 8]>> Work for InLanes<W, L> {
+    type Output = W::Output;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> W::Output {
+        self.0.run::<L>()
+    }
+}
+
+/// Runs work in the widest registers of the processor.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn in_eight_lanes<W: EightLanes>(work: W) -> W::Output {
+    // A constant condition: other builds compile without code for registers that are found.
+    let registers = match UNKNOWN {
+        true => Widest::find(),
+        false => Widest::Build,
+    };
+    in_eight_lanes_of(registers, work)
+}
+
+/// Runs work in these registers.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn in_eight_lanes_of<W: EightLanes>(registers: Widest, work: W) -> W::Output {
+    match registers {
+        Widest::Build => work.run::<F64x8>(),
+        Widest::Avx2(avx2) => avx2.run(InLanes::<W, WideF64x8>(work, PhantomData)),
+        Widest::Avx512(avx512) => avx512.run(InLanes::<W, WidestF64x8>(work, PhantomData)),
     }
 }

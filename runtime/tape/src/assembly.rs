@@ -1,0 +1,357 @@
+//! From the values of a formula to a tape: joins products and sums, puts equal operations in rows, and allocates registers.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::operation::Code;
+use crate::tape::{Input, Load, Register, Step, Tape, Write};
+use crate::unroll::{MAX_OPERATIONS, Number, Refusal, Value};
+
+/// Length of the shortest row whose block has room for full chunks.
+pub(crate) const SHORTEST_ROW: usize = 4;
+
+/// The number of components that are computed side by side.
+pub(crate) const CHUNK: usize = 8;
+
+/// The number of uses of each value for the given results.
+fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
+    let mut uses = vec![0; list.len()];
+    for &result in results {
+        uses[result as usize] += 1;
+    }
+    for number in (0..list.len()).rev() {
+        if uses[number] > 0
+            && let Value::Step(code, operands) = list[number]
+        {
+            for &operand in &operands[..code.arity()] {
+                uses[operand as usize] += 1;
+            }
+        }
+    }
+    uses
+}
+
+/// Fuses a sum and a product that only this sum uses into one operation, with the same rounding; returns the new number
+/// of uses.
+pub(crate) fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
+    let before = uses(list, results);
+    for number in 0..list.len() {
+        let Value::Step(code @ (Code::Add | Code::Subtract), [left, right, _]) = list[number]
+        else {
+            continue;
+        };
+        let product = |of: Number| match list[of as usize] {
+            Value::Step(Code::Multiply, [a, b, _]) if before[of as usize] == 1 => Some([a, b]),
+            _ => None,
+        };
+        let joined = match (code, product(left), product(right)) {
+            (Code::Add, Some([a, b]), _) => Some((Code::MultiplyAdd, [a, b, right])),
+            (Code::Add, None, Some([a, b])) => Some((Code::MultiplyAdd, [a, b, left])),
+            (Code::Subtract, Some([a, b]), _) => Some((Code::MultiplySubtract, [a, b, right])),
+            (Code::Subtract, None, Some([a, b])) => Some((Code::SubtractProduct, [a, b, left])),
+            _ => None,
+        };
+        if let Some((code, operands)) = joined {
+            list[number] = Value::Step(code, operands);
+        }
+    }
+    uses(list, results)
+}
+
+/// Places values in registers and their operations in rows.
+///
+/// Operations of one kind whose operands are known equally early are a group. The results of a group are in successive registers, a block.
+/// They are in the order in which they are read first, so that the operands of the next group are in order, too. A row is a part of a group
+/// whose operands are either the same or in successive registers.
+pub(crate) struct Assembly<'a> {
+    list: &'a [Value],
+    results: &'a [Number],
+    /// The number of remaining uses of each value.
+    left: Vec<usize>,
+    /// Register and block of each value.
+    places: HashMap<Number, (Register, usize)>,
+    blocks: Vec<Block>,
+    /// Free blocks by their length.
+    free: BTreeMap<usize, Vec<Register>>,
+    tape: Tape,
+}
+
+/// Successive registers.
+struct Block {
+    start: Register,
+    length: usize,
+    /// The number of values that are still needed.
+    live: usize,
+}
+
+impl<'a> Assembly<'a> {
+    /// The assembly of values with these numbers of uses.
+    pub(crate) fn of(list: &'a [Value], uses: Vec<usize>, results: &'a [Number]) -> Self {
+        Assembly {
+            list,
+            results,
+            left: uses,
+            places: HashMap::new(),
+            blocks: Vec::new(),
+            free: BTreeMap::new(),
+            tape: Tape::default(),
+        }
+    }
+
+    /// The tape.
+    pub(crate) fn tape(mut self) -> Result<Tape, Refusal> {
+        self.load()?;
+        for (code, group) in self.groups()? {
+            self.compute(code, &group)?;
+        }
+        self.tape.results = self.results.len();
+        for (number, result) in self.results.iter().enumerate() {
+            let &(from, _) = self.places.get(result).ok_or(Refusal::Outside)?;
+            match self.tape.writes.last_mut() {
+                Some(last) if last.from + last.count as Register == from => last.count += 1,
+                _ => self.tape.writes.push(Write {
+                    from,
+                    to: number,
+                    count: 1,
+                }),
+            }
+        }
+        self.tape.writes = (self.tape.writes.iter().copied())
+            .flat_map(|row| {
+                singles(row.count).map(move |(k, count)| Write {
+                    from: row.from + k as Register,
+                    to: row.to + k,
+                    count,
+                })
+            })
+            .collect();
+        if self.tape.steps.is_empty() {
+            self.copies();
+        }
+        self.tape.is_wide = (self.tape.steps.iter()).any(|step| step.count >= SHORTEST_ROW);
+        Ok(self.tape)
+    }
+
+    /// Places the inputs: components of the state that follow each other in rows.
+    fn load(&mut self) -> Result<(), Refusal> {
+        let mut inputs: Vec<(Input, Number)> = Vec::new();
+        for (number, value) in self.list.iter().enumerate() {
+            let input = match *value {
+                Value::Step(..) => continue,
+                Value::Constant(bits) => Input::Constant(f64::from_bits(bits)),
+                Value::Time => Input::Time,
+                Value::Position(k) => Input::Position(k),
+                Value::Momentum(k) => Input::Momentum(k),
+                Value::Parameter(k) => Input::Parameter(k),
+            };
+            if self.left[number] > 0 {
+                inputs.push((input, number as Number));
+            }
+        }
+        inputs.sort_by_key(|(input, _)| match *input {
+            Input::Position(k) => (0, k),
+            Input::Momentum(k) => (1, k),
+            _ => (2, 0),
+        });
+        let mut rest = &inputs[..];
+        while let Some(&(input, _)) = rest.first() {
+            let mut next = (0..).map_while(|k| Some((input.after(k)?, k)));
+            let count = next
+                .find(|&(input, k)| rest.get(k).is_none_or(|(found, _)| *found != input))
+                .map_or(1, |(_, k)| k.max(1));
+            let (row, others) = rest.split_at(count);
+            let numbers: Vec<Number> = row.iter().map(|(_, number)| *number).collect();
+            let into = self.place(&numbers)?;
+            let parts = singles(count).filter_map(|(k, count)| {
+                let (into, input) = (into + k as Register, input.after(k)?);
+                Some(Load { into, count, input })
+            });
+            self.tape.loads.extend(parts);
+            rest = others;
+        }
+        Ok(())
+    }
+
+    /// The groups in their order, each in the order of its registers.
+    fn groups(&self) -> Result<Vec<(Code, Vec<Number>)>, Refusal> {
+        let mut levels = vec![0_usize; self.list.len()];
+        let mut groups: BTreeMap<(usize, Code), Vec<Number>> = BTreeMap::new();
+        let mut count = 0;
+        for (number, value) in self.list.iter().enumerate() {
+            if let Value::Step(code, operands) = *value
+                && self.left[number] > 0
+            {
+                let below = operands[..code.arity()].iter();
+                let level = 1 + below.map(|k| levels[*k as usize]).max().unwrap_or(0);
+                levels[number] = level;
+                count += 1;
+                groups
+                    .entry((level, code))
+                    .or_default()
+                    .push(number as Number);
+            }
+        }
+        if count > MAX_OPERATIONS {
+            return Err(Refusal::TooLong);
+        }
+        let mut groups: Vec<_> = groups
+            .into_iter()
+            .map(|((_, code), group)| (code, group))
+            .collect();
+        // Where each value is read first: group, operand and place.
+        let mut readers = vec![(usize::MAX, 0, 0); self.list.len()];
+        for (place, &result) in self.results.iter().enumerate().rev() {
+            readers[result as usize].2 = place;
+        }
+        for (number, (code, group)) in groups.iter_mut().enumerate().rev() {
+            group.sort_by_key(|value| readers[*value as usize]);
+            for (place, value) in group.iter().enumerate() {
+                if let Value::Step(_, operands) = self.list[*value as usize] {
+                    for (slot, operand) in operands[..code.arity()].iter().enumerate() {
+                        let reader = &mut readers[*operand as usize];
+                        *reader = (number, slot, place).min(*reader);
+                    }
+                }
+            }
+        }
+        Ok(groups)
+    }
+
+    /// Places a group, and adds its rows to the tape.
+    fn compute(&mut self, code: Code, group: &[Number]) -> Result<(), Refusal> {
+        let operands = group.iter().map(|value| match self.list[*value as usize] {
+            Value::Step(_, operands) => operands,
+            _ => [0; 3],
+        });
+        let operands: Vec<[Number; 3]> = operands.collect();
+        let start = self.place(group)?;
+        let mut last: Option<(Step, [usize; 3])> = None;
+        for (k, numbers) in operands.iter().enumerate() {
+            // Operands that the operation does not need are the first one.
+            let mut read = [(0, 0); 3];
+            for (slot, read) in read.iter_mut().enumerate() {
+                let number = numbers[if slot < code.arity() { slot } else { 0 }];
+                *read = *self.places.get(&number).ok_or(Refusal::Outside)?;
+            }
+            let (registers, blocks) = (read.map(|read| read.0), read.map(|read| read.1));
+            if let Some((row, of_row)) = &mut last
+                && *of_row == blocks
+                && row.takes(registers)
+            {
+                continue;
+            }
+            let step = Step {
+                code,
+                into: start + k as Register,
+                count: 1,
+                operands: registers,
+                strides: [0; 3],
+            };
+            let before = last.replace((step, blocks));
+            self.tape.steps.extend(before.map(|(row, _)| row));
+        }
+        self.tape.steps.extend(last.map(|(row, _)| row));
+        for numbers in operands {
+            for number in &numbers[..code.arity()] {
+                self.release(*number);
+            }
+        }
+        Ok(())
+    }
+
+    /// Places values in successive registers.
+    fn place(&mut self, values: &[Number]) -> Result<Register, Refusal> {
+        let length = match values.len() {
+            count if count < SHORTEST_ROW => count,
+            // The last chunk of a row may begin at its end.
+            count => count.next_multiple_of(CHUNK) + CHUNK,
+        };
+        let start = match self.free.get_mut(&length).and_then(Vec::pop) {
+            Some(start) => start,
+            None => {
+                let start = self.tape.registers;
+                self.tape.registers += length;
+                Register::try_from(start).map_err(|_| Refusal::TooLong)?
+            }
+        };
+        let block = self.blocks.len();
+        for (k, value) in values.iter().enumerate() {
+            self.places.insert(*value, (start + k as Register, block));
+        }
+        self.blocks.push(Block {
+            start,
+            length,
+            live: values.len(),
+        });
+        Ok(start)
+    }
+
+    /// Counts a use of a value; after the last use of its values a block is free.
+    fn release(&mut self, value: Number) {
+        let left = &mut self.left[value as usize];
+        *left -= 1;
+        if *left == 0
+            && let Some((_, block)) = self.places.remove(&value)
+        {
+            let Block {
+                start,
+                length,
+                live,
+            } = &mut self.blocks[block];
+            *live -= 1;
+            if *live == 0 {
+                self.free.entry(*length).or_default().push(*start);
+            }
+        }
+    }
+
+    /// Without operations, results are copied from the inputs without registers.
+    fn copies(&mut self) {
+        let mut copies = Vec::new();
+        for write in &self.tape.writes {
+            let mut from = write.from;
+            while from < write.from + write.count as Register {
+                let loads = &mut self.tape.loads.iter();
+                let found = loads
+                    .find(|load| (load.into..load.into + load.count as Register).contains(&from));
+                let Some(load) = found else { return };
+                let before = (from - load.into) as usize;
+                let done = (from - write.from) as usize;
+                let count = (load.count - before).min(write.count - done);
+                copies.push(Load {
+                    into: (write.to + done) as Register,
+                    count,
+                    input: load.input.after(before).unwrap_or(load.input),
+                });
+                from += count as Register;
+            }
+        }
+        self.tape.loads = copies;
+    }
+}
+
+/// A row of registers to copy: its starts and counts, one by one if it is short. Few numbers are copied faster without a call.
+fn singles(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    let step = if count < SHORTEST_ROW { 1 } else { count };
+    (0..count).step_by(step).map(move |k| (k, step))
+}
+
+impl Step {
+    /// Takes an operation with these operands into the row, if it continues the row.
+    fn takes(&mut self, operands: [Register; 3]) -> bool {
+        let mut strides = self.strides;
+        for slot in 0..3 {
+            let stride = match operands[slot].checked_sub(self.operands[slot]) {
+                Some(0) => 0,
+                Some(distance) if distance as usize == self.count => 1,
+                _ => return false,
+            };
+            if self.count > 1 && stride != strides[slot] {
+                return false;
+            }
+            strides[slot] = stride;
+        }
+        self.strides = strides;
+        self.count += 1;
+        true
+    }
+}

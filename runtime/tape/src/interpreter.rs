@@ -1,0 +1,793 @@
+//! The interpreter of a tape, over any scalar.
+//!
+//! It enters the widest registers of the processor where that pays: for rows of doubles, for several points at once, and for lanes.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::marker::PhantomData;
+use std::slice;
+
+use symplectic::Scalar;
+use symplectic::nalgebra::DVector;
+use symplectic::simd::Lanes;
+use symplectic_core::inside::{EightLanes, Work, in_eight_lanes};
+
+use crate::assembly::{CHUNK, SHORTEST_ROW};
+use crate::operation::{Operation, Use, dispatch};
+use crate::tape::{At, Input, Load, Register, Step, Tape};
+
+/// Eight numbers side by side.
+type Eight = [f64; CHUNK];
+
+impl Tape {
+    /// Evaluates the tape at a point, and calls `write` with the number of a result and the values from there on.
+    ///
+    /// A few registers are an array on the stack. More are kept by the thread for the next evaluation.
+    pub fn run<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, &[T])) {
+        if self.steps.is_empty() {
+            return self.copy(at, write);
+        }
+        let mut finish = |registers: &[T]| {
+            for row in &self.writes {
+                write(row.to, &registers[row.from as usize..][..row.count]);
+            }
+        };
+        match self.registers {
+            _ if T::IS_DOUBLE && self.is_wide => {
+                with_registers(self.registers, T::zero(), |registers| {
+                    self.load(at, registers);
+                    if let Some(doubles) = T::doubles_mut(registers) {
+                        by_rows(&self.steps, doubles);
+                    }
+                    finish(registers);
+                });
+            }
+            0..=16 => {
+                let mut registers = [T::zero(); 16];
+                self.load(at, &mut registers);
+                apply(&self.steps, &mut registers);
+                finish(&registers);
+            }
+            17..=64 => {
+                let mut registers = [T::zero(); 64];
+                self.load(at, &mut registers);
+                apply(&self.steps, &mut registers);
+                finish(&registers);
+            }
+            many => with_registers(many, T::zero(), |registers| {
+                self.load(at, registers);
+                apply(&self.steps, registers);
+                finish(registers);
+            }),
+        }
+    }
+
+    /// Evaluates the tape at a point for each vector, and writes the results there. Doubles are evaluated at eight points at once.
+    pub(crate) fn fill<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> At<'a, T>,
+        vectors: &mut [DVector<T>],
+    ) {
+        let in_eights = T::IS_DOUBLE && !self.is_wide && !self.steps.is_empty();
+        if !in_eights || vectors.len() < 2 {
+            for (point, vector) in vectors.iter_mut().enumerate() {
+                self.run(at(point), |to, values| {
+                    copy_to(vector.as_mut_slice(), to, values)
+                });
+            }
+            return;
+        }
+        for (number, vectors) in vectors.chunks_mut(CHUNK).enumerate() {
+            let at = |lane: usize| at(CHUNK * number + lane);
+            match self.registers {
+                0..=32 => {
+                    let mut registers = [[0.0; CHUNK]; 32];
+                    self.load_points(at, vectors.len(), &mut registers);
+                    apply_eights(&self.steps, &mut registers);
+                    self.write_points(&registers, vectors);
+                }
+                many => with_registers(many, [0.0; CHUNK], |registers| {
+                    self.load_points(at, vectors.len(), registers);
+                    apply_eights(&self.steps, registers);
+                    self.write_points(registers, vectors);
+                }),
+            }
+        }
+    }
+
+    /// Copies results that are inputs, such as the velocity with unit masses.
+    #[inline]
+    fn copy<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, &[T])) {
+        for load in &self.loads {
+            match at.row(load) {
+                Some(row) => write(load.into as usize, row),
+                None => at.each(load, |k, value| write(load.into as usize + k, &[value])),
+            }
+        }
+    }
+
+    #[inline]
+    fn load<T: Scalar>(&self, at: At<'_, T>, registers: &mut [T]) {
+        for load in &self.loads {
+            let into = load.into as usize;
+            match at.row(load) {
+                Some(row) => registers[into..into + load.count].copy_from_slice(row),
+                None => at.each(load, |k, value| registers[into + k] = value),
+            }
+        }
+    }
+
+    /// Loads at most eight points. Lanes without a point repeat the last one.
+    fn load_points<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> At<'a, T>,
+        points: usize,
+        registers: &mut [Eight],
+    ) {
+        for lane in 0..CHUNK {
+            let at = at(lane.min(points - 1));
+            for load in &self.loads {
+                let into = &mut registers[load.into as usize..][..load.count];
+                at.each(load, |k, value| into[k][lane] = double(value));
+            }
+        }
+    }
+
+    fn write_points<T: Scalar>(&self, registers: &[Eight], vectors: &mut [DVector<T>]) {
+        for (lane, vector) in vectors.iter_mut().enumerate() {
+            let Some(out) = T::doubles_mut(vector.as_mut_slice()) else {
+                return;
+            };
+            for row in &self.writes {
+                let values = &registers[row.from as usize..][..row.count];
+                let places = out.iter_mut().skip(row.to);
+                places
+                    .zip(values)
+                    .for_each(|(place, value)| *place = value[lane]);
+            }
+        }
+    }
+}
+
+/// Copies results from the number `to` on, as many as there are places.
+#[inline]
+pub(crate) fn copy_to<T: Scalar>(out: &mut [T], to: usize, values: &[T]) {
+    if let [value] = values {
+        // Without a call.
+        if let Some(place) = out.get_mut(to) {
+            *place = *value;
+        }
+    } else if let Some(out) = out.get_mut(to..) {
+        let count = out.len().min(values.len());
+        out[..count].copy_from_slice(&values[..count]);
+    }
+}
+
+/// A number that is a double.
+#[inline(always)]
+fn double<T: Scalar>(number: T) -> f64 {
+    T::doubles(slice::from_ref(&number)).map_or(f64::NAN, |number| number[0])
+}
+
+impl<'a, T: Scalar> At<'a, T> {
+    /// The components of the state that a row of several inputs reads, if all exist.
+    #[inline(always)]
+    fn row(&self, load: &Load) -> Option<&'a [T]> {
+        let (half, first) = match load.input {
+            _ if load.count == 1 => return None,
+            Input::Position(first) => (self.q, first),
+            Input::Momentum(first) => (self.p, first),
+            _ => return None,
+        };
+        half.get(first..first + load.count)
+    }
+
+    /// Calls `work` with the number and the value of each input of a row.
+    #[inline(always)]
+    fn each(&self, load: &Load, mut work: impl FnMut(usize, T)) {
+        if load.count == 1 {
+            return work(0, self.value(load.input));
+        }
+        match self.row(load) {
+            Some(row) => row
+                .iter()
+                .enumerate()
+                .for_each(|(k, value)| work(k, *value)),
+            None => {
+                let inputs = (0..load.count).filter_map(|k| Some((k, load.input.after(k)?)));
+                inputs.for_each(|(k, input)| work(k, self.value(input)));
+            }
+        }
+    }
+}
+
+/// Runs work with at least so many registers, which the thread keeps for the next time. Their values are any.
+fn with_registers<R: Copy + 'static>(count: usize, zero: R, work: impl FnOnce(&mut [R])) {
+    thread_local! {
+        static KEPT: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+    }
+    KEPT.with(|kept| {
+        let find = |kept: &mut Vec<Box<dyn Any>>| {
+            let place = kept.iter().position(|kept| kept.is::<Vec<R>>())?;
+            kept.swap_remove(place).downcast::<Vec<R>>().ok()
+        };
+        let mut registers = find(&mut kept.borrow_mut()).unwrap_or_default();
+        if registers.len() < count {
+            registers.resize(count, zero);
+        }
+        work(&mut registers[..count]);
+        kept.borrow_mut().push(registers);
+    });
+}
+
+/// Registers that hold numbers `T`.
+trait Registers<T> {
+    fn read(&self, register: Register) -> T;
+    fn write(&mut self, register: Register, value: T);
+}
+
+/// N is a power of two: the mask makes every index valid, so that no bound is checked.
+impl<T: Scalar, const N: usize> Registers<T> for [T; N] {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn read(&self, register: Register) -> T {
+        self[register as usize & (N - 1)]
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn write(&mut self, register: Register, value: T) {
+        self[register as usize & (N - 1)] = value;
+    }
+}
+
+impl<T: Scalar> Registers<T> for [T] {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn read(&self, register: Register) -> T {
+        self[register as usize]
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn write(&mut self, register: Register, value: T) {
+        self[register as usize] = value;
+    }
+}
+
+/// Registers of eight doubles, as lanes.
+struct Eights<R>(R);
+
+impl<L: Lanes<Array = Eight>, const N: usize> Registers<L> for Eights<&mut [Eight; N]> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn read(&self, register: Register) -> L {
+        L::from_array(self.0[register as usize & (N - 1)])
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn write(&mut self, register: Register, value: L) {
+        self.0[register as usize & (N - 1)] = value.to_array();
+    }
+}
+
+impl<L: Lanes<Array = Eight>> Registers<L> for Eights<&mut [Eight]> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn read(&self, register: Register) -> L {
+        L::from_array(self.0[register as usize])
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn write(&mut self, register: Register, value: L) {
+        self.0[register as usize] = value.to_array();
+    }
+}
+
+/// The operations of a tape, in the registers of the numbers `T`.
+struct Steps<'a, T, R: ?Sized> {
+    steps: &'a [Step],
+    registers: &'a mut R,
+    numbers: PhantomData<T>,
+}
+
+/// Applies the operations of a tape. Not inlined, because there are many callers: so it enters the registers of the numbers.
+#[inline(never)]
+fn apply<T: Scalar, R: Registers<T> + ?Sized>(steps: &[Step], registers: &mut R) {
+    T::in_registers(Steps {
+        steps,
+        registers,
+        numbers: PhantomData,
+    });
+}
+
+impl<T: Scalar, R: Registers<T> + ?Sized> Work for Steps<'_, T, R> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        for step in self.steps {
+            let row = OneByOne::<T, R> {
+                step,
+                registers: &mut *self.registers,
+                numbers: PhantomData,
+            };
+            dispatch(step.code, row);
+        }
+    }
+}
+
+/// A row, one register after another.
+struct OneByOne<'a, T, R: ?Sized> {
+    step: &'a Step,
+    registers: &'a mut R,
+    numbers: PhantomData<T>,
+}
+
+impl<T: Scalar, R: Registers<T> + ?Sized> Use for OneByOne<'_, T, R> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with<O: Operation>(self) {
+        let Step {
+            strides,
+            mut into,
+            operands: [mut a, mut b, mut c],
+            count,
+            ..
+        } = *self.step;
+        let mut left = count;
+        loop {
+            let operands = [
+                self.registers.read(a),
+                self.registers.read(b),
+                self.registers.read(c),
+            ];
+            self.registers.write(into, O::of(operands));
+            left -= 1;
+            if left == 0 {
+                return;
+            }
+            into += 1;
+            a += Register::from(strides[0]);
+            b += Register::from(strides[1]);
+            c += Register::from(strides[2]);
+        }
+    }
+}
+
+/// The operations of a tape at eight points.
+struct AtEight<'a, R: ?Sized> {
+    steps: &'a [Step],
+    registers: &'a mut R,
+}
+
+#[inline(never)]
+fn apply_eights<R: ?Sized>(steps: &[Step], registers: &mut R)
+where
+    for<'a> AtEight<'a, R>: EightLanes<Output = ()>,
+{
+    in_eight_lanes(AtEight { steps, registers });
+}
+
+impl<const N: usize> EightLanes for AtEight<'_, [Eight; N]> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<L: Lanes<Array = Eight>>(self) {
+        let steps = Steps::<L, _> {
+            steps: self.steps,
+            registers: &mut Eights(self.registers),
+            numbers: PhantomData,
+        };
+        steps.run();
+    }
+}
+
+impl EightLanes for AtEight<'_, [Eight]> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<L: Lanes<Array = Eight>>(self) {
+        let steps = Steps::<L, _> {
+            steps: self.steps,
+            registers: &mut Eights(self.registers),
+            numbers: PhantomData,
+        };
+        steps.run();
+    }
+}
+
+/// Operations on rows of doubles.
+struct Rows<'a> {
+    steps: &'a [Step],
+    registers: &'a mut [f64],
+}
+
+/// Applies the operations of a tape to doubles, long rows in chunks.
+#[inline(never)]
+fn by_rows(steps: &[Step], registers: &mut [f64]) {
+    in_eight_lanes(Rows { steps, registers });
+}
+
+impl EightLanes for Rows<'_> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<L: Lanes<Array = Eight>>(self) {
+        for step in self.steps {
+            let row = Row::<L> {
+                step,
+                registers: &mut *self.registers,
+                lanes: PhantomData,
+            };
+            dispatch(step.code, row);
+        }
+    }
+}
+
+/// A row of doubles, in chunks of lanes `L` if it is long.
+struct Row<'a, L> {
+    step: &'a Step,
+    registers: &'a mut [f64],
+    lanes: PhantomData<L>,
+}
+
+impl<L: Lanes<Array = Eight>> Use for Row<'_, L> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with<O: Operation>(self) {
+        let Self {
+            step, registers, ..
+        } = self;
+        if step.count < SHORTEST_ROW {
+            let row = OneByOne::<f64, [f64]> {
+                step,
+                registers,
+                numbers: PhantomData,
+            };
+            return row.with::<O>();
+        }
+        let chunks = step.count.div_ceil(CHUNK);
+        let (into, length) = (step.into as usize, chunks * CHUNK);
+        let (before, rest) = registers.split_at_mut(into);
+        let (out, after) = rest.split_at_mut(length);
+        let from = |slot: usize| {
+            let register = step.operands[slot] as usize;
+            match register < into {
+                true => &before[register..],
+                false => &after[register - into - length..],
+            }
+        };
+        let (a, b, c) = (from(0), from(1), from(2));
+        let splats = [[a[0]; CHUNK], [b[0]; CHUNK], [c[0]; CHUNK]];
+        let [a, b, c] = [(a, 0), (b, 1), (c, 2)].map(|(row, slot)| match step.strides[slot] {
+            0 => (slice::from_ref(&splats[slot]), 0),
+            _ => (row[..length].as_chunks().0, 1),
+        });
+        for (k, out) in out.as_chunks_mut().0.iter_mut().enumerate() {
+            let operands = [
+                L::from_array(a.0[k * a.1]),
+                L::from_array(b.0[k * b.1]),
+                L::from_array(c.0[k * c.1]),
+            ];
+            *out = O::of(operands).to_array();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, MAX_LANES};
+    use symplectic_core::inside::{Avx2, Avx512, Widest, in_eight_lanes_of};
+
+    use super::*;
+    use crate::assembly::{Assembly, join_products};
+    use crate::operation::{Code, apply as apply_once};
+    use crate::tape::Parameters;
+    use crate::unroll::{Number, Value};
+
+    /// Pseudo-random numbers.
+    struct Random(u64);
+
+    impl Random {
+        fn below(&mut self, bound: usize) -> usize {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
+            self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) as usize % bound
+        }
+
+        fn number(&mut self) -> f64 {
+            self.below(2000) as f64 / 512.0 - 1.5
+        }
+    }
+
+    const CODES: [Code; 24] = [
+        Code::Add,
+        Code::Subtract,
+        Code::Multiply,
+        Code::Divide,
+        Code::MultiplyAdd,
+        Code::MultiplySubtract,
+        Code::SubtractProduct,
+        Code::Negative,
+        Code::Reciprocal,
+        Code::Root,
+        Code::Absolute,
+        Code::OrZero,
+        Code::Exp,
+        Code::Ln,
+        Code::Sin,
+        Code::Cos,
+        Code::Tan,
+        Code::Asin,
+        Code::Acos,
+        Code::Atan,
+        Code::Sinh,
+        Code::Cosh,
+        Code::Tanh,
+        Code::Atan2,
+    ];
+
+    /// The dimension of q and of p.
+    const DIMENSION: usize = 19;
+
+    /// Values and results. Operations come in lists of up to `longest` of one kind, on operands that follow each other, are the same, or are
+    /// anywhere. Results are any values, inputs too.
+    fn formula(random: &mut Random, lists: usize, longest: usize) -> (Vec<Value>, Vec<Number>) {
+        let mut list: Vec<Value> = (0..DIMENSION).map(Value::Position).collect();
+        list.extend((0..DIMENSION).map(Value::Momentum));
+        list.extend([Value::Time, Value::Parameter(0), Value::Parameter(1)]);
+        list.extend([0.0_f64, 1.0, -2.5].map(|x| Value::Constant(x.to_bits())));
+        for _ in 0..lists {
+            let (code, count) = (CODES[random.below(24)], 1 + random.below(longest));
+            let known = list.len();
+            let firsts = [(); 3].map(|()| (random.below(known), random.below(3)));
+            for k in 0..count {
+                let operands = firsts.map(|(first, kind)| match kind {
+                    0 => first,
+                    1 => (first + k) % known,
+                    _ => random.below(known),
+                });
+                list.push(Value::Step(code, operands.map(|operand| operand as Number)));
+            }
+        }
+        let from = random.below(list.len());
+        let last = from..list.len().min(from + 40);
+        let any = (0..10).map(|_| random.below(list.len()));
+        let results = any.collect::<Vec<_>>().into_iter().chain(last);
+        let results = results.map(|result| result as Number).collect();
+        (list, results)
+    }
+
+    fn assembled((list, results): &(Vec<Value>, Vec<Number>)) -> Tape {
+        let mut list = list.clone();
+        let uses = join_products(&mut list, results);
+        let tape = Assembly::of(&list, uses, results).tape();
+        tape.expect("few operations")
+    }
+
+    /// A point, with its time.
+    #[derive(Clone, Copy)]
+    struct Point {
+        time: f64,
+        q: [f64; DIMENSION],
+        p: [f64; DIMENSION],
+    }
+
+    impl Point {
+        fn any(random: &mut Random) -> Self {
+            Point {
+                time: random.number(),
+                q: [(); DIMENSION].map(|()| random.number()),
+                p: [(); DIMENSION].map(|()| random.number()),
+            }
+        }
+
+        fn at<'a>(&'a self, parameters: &'a Parameters) -> At<'a, f64> {
+            At {
+                parameters,
+                time: self.time,
+                q: &self.q,
+                p: &self.p,
+            }
+        }
+    }
+
+    const PARAMETERS: [f64; 2] = [0.75, -1.25];
+
+    /// The results without a tape: value by value.
+    fn expected((list, results): &(Vec<Value>, Vec<Number>), point: &Point) -> Vec<u64> {
+        let mut known: Vec<f64> = Vec::new();
+        for value in list {
+            known.push(match *value {
+                Value::Constant(bits) => f64::from_bits(bits),
+                Value::Time => point.time,
+                Value::Position(k) => point.q[k],
+                Value::Momentum(k) => point.p[k],
+                Value::Parameter(k) => PARAMETERS[k],
+                Value::Step(code, operands) => {
+                    apply_once(code, operands.map(|operand| known[operand as usize]))
+                }
+            });
+        }
+        results.iter().map(|k| bits(known[*k as usize])).collect()
+    }
+
+    /// NaN has many bit patterns.
+    fn bits(value: f64) -> u64 {
+        if value.is_nan() {
+            u64::MAX
+        } else {
+            value.to_bits()
+        }
+    }
+
+    /// Formulas of all sizes: in few and in many registers, with and without rows. Among them are results that are inputs only.
+    fn each_formula(mut check: impl FnMut(&(Vec<Value>, Vec<Number>), &mut Random)) {
+        let mut random = Random(7);
+        for (lists, longest) in [
+            (0, 1),
+            (1, 3),
+            (4, 3),
+            (12, 1),
+            (12, 3),
+            (30, 2),
+            (5, 20),
+            (30, 30),
+        ] {
+            for _ in 0..12 {
+                let formula = formula(&mut random, lists, longest);
+                check(&formula, &mut random);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tape_has_the_bits_of_its_values() {
+        let parameters = Parameters::from(&PARAMETERS[..]);
+        let (mut wide, mut narrow) = (0, 0);
+        each_formula(|formula, random| {
+            let tape = assembled(formula);
+            *(if tape.is_wide { &mut wide } else { &mut narrow }) += 1;
+            let point = Point::any(random);
+            let mut found = vec![0; formula.1.len()];
+            tape.run(point.at(&parameters), |to, values: &[f64]| {
+                for (place, value) in found[to..].iter_mut().zip(values) {
+                    *place = bits(*value);
+                }
+            });
+            assert_eq!(found, expected(formula, &point));
+        });
+        assert!(wide > 10 && narrow > 10, "{wide}, {narrow}");
+    }
+
+    #[test]
+    fn several_points_have_the_bits_of_each_point() {
+        let parameters = Parameters::from(&PARAMETERS[..]);
+        each_formula(|formula, random| {
+            let tape = assembled(formula);
+            for count in (1..=9).chain([17]) {
+                let points: Vec<Point> = (0..count).map(|_| Point::any(random)).collect();
+                let mut found = vec![DVector::zeros(formula.1.len()); count];
+                tape.fill(|k| points[k].at(&parameters), &mut found);
+                for (found, point) in found.iter().zip(&points) {
+                    let found: Vec<u64> = found.iter().map(|value| bits(*value)).collect();
+                    assert_eq!(found, expected(formula, point), "{count}");
+                }
+            }
+        });
+    }
+
+    fn compare_in_lanes<L: Lanes>() {
+        // Each lane has its own parameters, which are the same here.
+        let own = Parameters::from(&PARAMETERS[..]);
+        let parameters = Parameters::join((0..MAX_LANES).map(|_| &own)).expect("as many lanes");
+        each_formula(|formula, random| {
+            let tape = assembled(formula);
+            let points: Vec<Point> = (0..L::WIDTH).map(|_| Point::any(random)).collect();
+            let half = |of: fn(&Point) -> &[f64; DIMENSION]| -> Vec<L> {
+                let lanes = |k: usize| L::from_fn(|lane| of(&points[lane])[k]);
+                (0..DIMENSION).map(lanes).collect()
+            };
+            let (q, p) = (half(|point| &point.q), half(|point| &point.p));
+            let at = At {
+                parameters: &parameters,
+                time: L::from_fn(|lane| points[lane].time),
+                q: &q,
+                p: &p,
+            };
+            let mut found = vec![L::from_f64(f64::NAN); formula.1.len()];
+            tape.run(at, |to, values: &[L]| copy_to(&mut found, to, values));
+            for (lane, point) in points.iter().enumerate() {
+                let found: Vec<u64> = found.iter().map(|value| bits(value.get(lane))).collect();
+                assert_eq!(found, expected(formula, point), "{lane} of {}", L::WIDTH);
+            }
+        });
+    }
+
+    #[test]
+    fn lanes_of_all_widths_have_the_bits_of_doubles() {
+        compare_in_lanes::<F64x2>();
+        compare_in_lanes::<F64x4>();
+        compare_in_lanes::<F64x8>();
+        compare_in_lanes::<F64x16>();
+    }
+
+    #[test]
+    fn all_registers_of_the_processor_give_the_same_bits() {
+        let mut all = vec![Widest::Build];
+        all.extend(Avx2::detect().map(Widest::Avx2));
+        all.extend(Avx512::detect().map(Widest::Avx512));
+        let parameters = Parameters::from(&PARAMETERS[..]);
+        each_formula(|formula, random| {
+            let tape = assembled(formula);
+            let point = Point::any(random);
+            let expected = expected(formula, &point);
+            for widest in &all {
+                // By rows, and at eight points.
+                let mut registers = vec![0.0; tape.registers];
+                tape.load(point.at(&parameters), &mut registers);
+                let mut eights = vec![[0.0; CHUNK]; tape.registers];
+                tape.load_points(|_| point.at(&parameters), 3, &mut eights);
+                let steps = &tape.steps;
+                let rows = Rows {
+                    steps,
+                    registers: &mut registers,
+                };
+                in_eight_lanes_of(*widest, rows);
+                let points = AtEight {
+                    steps,
+                    registers: &mut eights[..],
+                };
+                in_eight_lanes_of(*widest, points);
+                if steps.is_empty() {
+                    continue;
+                }
+                for row in &tape.writes {
+                    for k in 0..row.count {
+                        let place = row.from as usize + k;
+                        let expected = expected[row.to + k];
+                        assert_eq!(bits(registers[place]), expected, "{widest:?}");
+                        assert!(eights[place].iter().all(|value| bits(*value) == expected));
+                    }
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn every_lane_has_its_own_parameters() {
+        let own: Vec<_> = (0..8)
+            .map(|lane| Parameters::from(&[lane as f64, 3.0][..]))
+            .collect();
+        let joined = Parameters::join(own.iter()).expect("eight lanes");
+        let list = vec![
+            Value::Parameter(0),
+            Value::Parameter(1),
+            Value::Step(Code::Multiply, [0, 1, 0]),
+        ];
+        let at = At {
+            parameters: &joined,
+            time: F64x8::from_f64(0.0),
+            q: &[],
+            p: &[],
+        };
+        let mut found = None;
+        assembled(&(list, vec![2])).run(at, |_, values| found = Some(values[0].to_array()));
+        assert_eq!(found, Some([0.0, 3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0]));
+        assert!(Parameters::join([joined.clone()].iter()).is_none());
+    }
+
+    #[test]
+    fn what_does_not_exist_is_nan() {
+        let list: Vec<Value> = (0..6).map(Value::Position).collect();
+        let tape = assembled(&(list, (0..6).collect()));
+        let parameters = Parameters::none();
+        let at = At {
+            parameters: &parameters,
+            time: 0.0,
+            q: &[1.0, 2.0],
+            p: &[],
+        };
+        let mut found = [0.0; 6];
+        tape.run(at, |to, values| copy_to(&mut found, to, values));
+        assert_eq!(found[..2], [1.0, 2.0]);
+        assert!(found[2..].iter().all(|value: &f64| value.is_nan()));
+    }
+}
