@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it into a fresh environment, and tests what is installed. `.ci/run` calls it.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+root=$(cd ../.. && pwd)
+work=${CARGO_TARGET_DIR:-$root/target}/python
+rm -rf "$work"
+python3 -m venv "$work/environment"
+python="$work/environment/bin/python"
+"$python" -m pip install --quiet --disable-pip-version-check -r requirements.txt
+# As for tests, not optimised: its bits are the same.
+"$work/environment/bin/maturin" build --quiet --locked --profile dev --out "$work/wheels"
+"$python" -m pip install --quiet --disable-pip-version-check --no-deps "$work"/wheels/*.whl
+
+# Outside of the sources, so that the installed files are tested.
+installed=$(cd "$work" && "$python" -c "import symplectica, pathlib; print(pathlib.Path(symplectica.__file__).parent)")
+case $installed in "$work"/*) ;; *) echo "not the installed package: $installed"; exit 1 ;; esac
+tests=$PWD/tests notebooks=$PWD/notebooks
+cd "$work"
+echo "-- tests"
+"$python" -m pytest --quiet --no-header -p no:cacheprovider "$tests"
+echo "-- examples of the documentation"
+"$python" -m pytest --quiet --no-header -p no:cacheprovider --doctest-modules "$installed"
+echo "-- types"
+"$python" -m mypy --strict --package symplectica
+"$python" -m mypy.stubtest symplectica._native
+echo "-- notebooks"
+"$python" "$notebooks/run.py" "$notebooks/first_orbit.ipynb" "$notebooks/derive_and_prove.ipynb"
+echo "-- the command"
+"$python" -m symplectica derive --basis "polynomial(3)" --nodes "lobatto(3)" >/dev/null
