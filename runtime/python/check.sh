@@ -16,14 +16,18 @@ python="$work/environment/bin/python"
 # Outside of the sources, so that the installed files are tested.
 installed=$(cd "$work" && "$python" -c "import symplectica, pathlib; print(pathlib.Path(symplectica.__file__).parent)")
 case $installed in "$work"/*) ;; *) echo "not the installed package: $installed"; exit 1 ;; esac
-tests=$PWD/tests notebooks=$PWD/notebooks
+package=$PWD tests=$PWD/tests notebooks=$PWD/notebooks
 cd "$work"
 echo "-- tests"
 "$python" -m pytest --quiet --no-header -p no:cacheprovider "$tests"
 echo "-- examples of the documentation"
 "$python" -m pytest --quiet --no-header -p no:cacheprovider --doctest-modules "$installed"
 echo "-- types"
-"$python" -m mypy --strict --package symplectica
+# `UPDATE_EXPECT=1 runtime/python/check.sh` writes the stubs of the module.
+(cd "$package" && "$work/environment/bin/maturin" generate-stubs --quiet --locked --profile dev --interpreter "$python" --out "$work/stubs")
+[ -z "${UPDATE_EXPECT:-}" ] || cp "$work/stubs/symplectica/_native.pyi" "$package/symplectica/_native.pyi"
+diff "$package/symplectica/_native.pyi" "$work/stubs/symplectica/_native.pyi"
+"$python" -m mypy --config-file "$package/pyproject.toml"
 "$python" -m mypy.stubtest symplectica._native
 echo "-- notebooks"
 "$python" "$notebooks/run.py" "$notebooks/first_orbit.ipynb" "$notebooks/derive_and_prove.ipynb"

@@ -70,7 +70,9 @@ impl<S: System<V> + Clone, V: Vector<Scalar = f64>> Scene<'_, S, V> {
     where
         S::Class: Frictionless,
     {
-        let Scene { start, step, end, .. } = self;
+        let Scene {
+            start, step, end, ..
+        } = self;
         let mut run = Integrator::new(method, self.system.clone(), start.clone(), *step)
             .unwrap_or_else(|error| panic!("{}, {name}: {error}", self.name));
         let state = run
@@ -89,7 +91,10 @@ impl<S: System<V> + Clone, V: Vector<Scalar = f64>> Scene<'_, S, V> {
             "{{\"scene\": {:?}, \"method\": {name:?}, \"formula\": {:?}, \"parameters\": {}, \"q\": {first_q:?}, \"p\": {first_p:?}, \
              \"step\": {step:?}, \"end\": {end:?}, \"bits\": [{}]}}",
             self.name,
-            self.formula.split_whitespace().collect::<Vec<_>>().join(" "),
+            self.formula
+                .split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" "),
             self.parameters,
             bits.join(", ")
         );
@@ -121,7 +126,11 @@ impl<S: System<V, Class = Separable> + Clone, V: Vector<Scalar = f64>> Scene<'_,
         self.row(rows, "stormer-verlet", StoermerVerlet);
         self.row(rows, "blanes-moan-2002-s10", BlanesMoanS10);
         self.row(rows, "blanes-moan-2002-srkn14a", BlanesMoanSrkn14a);
-        self.row(rows, "sofroniou-spaletta-2005-s35odr10", SofroniouSpaletta10);
+        self.row(
+            rows,
+            "sofroniou-spaletta-2005-s35odr10",
+            SofroniouSpaletta10,
+        );
     }
 }
 
@@ -155,7 +164,9 @@ fn rows() -> Vec<String> {
         start: State::new(
             0.0,
             SMatrix::from_column_slice(&[0.0, 0.0, 0.0, -3.5, -3.8, -1.55, 9.07, -3.04, -1.65]),
-            SMatrix::from_column_slice(&[0.0, 0.0, 0.0, 5.4e-6, -3.9e-6, -1.8e-6, 4.8e-7, 1.38e-6, 5.5e-7]),
+            SMatrix::from_column_slice(&[
+                0.0, 0.0, 0.0, 5.4e-6, -3.9e-6, -1.8e-6, 4.8e-7, 1.38e-6, 5.5e-7,
+            ]),
         ),
         step: 50.0,
         end: 3000.0,

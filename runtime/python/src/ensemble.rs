@@ -153,8 +153,9 @@ impl Work for InLanes<'_> {
             return ends;
         }
         let place = |trajectory: usize| {
-            let place = self.places.get(trajectory)?.lock().ok()?.take();
-            place
+            self.places
+                .get(trajectory)
+                .and_then(|place| place.lock().ok()?.take())
         };
         let see = |place: &mut Option<Place<'_>>, state: &State<Vector>| {
             let Some(Place { q, p, row }) = place else {

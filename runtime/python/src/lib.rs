@@ -16,24 +16,31 @@ mod tables;
 mod watch;
 mod work;
 
-use pyo3::prelude::*;
+use pyo3::pymodule;
 
 #[pymodule]
-fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<tableau::Tableau>()?;
-    module.add_class::<formula::Formula>()?;
-    module.add_class::<problem::Problem>()?;
-    module.add_class::<method::Method>()?;
-    module.add_function(wrap_pyfunction!(catalogue::catalogue, module)?)?;
-    module.add_function(wrap_pyfunction!(catalogue::keys, module)?)?;
-    module.add_function(wrap_pyfunction!(tables::audit, module)?)?;
-    module.add_function(wrap_pyfunction!(tables::refine, module)?)?;
-    module.add_function(wrap_pyfunction!(tables::import_table, module)?)?;
-    module.add_function(wrap_pyfunction!(single::integrate, module)?)?;
-    module.add_function(wrap_pyfunction!(ensemble::ensemble, module)?)?;
-    module.add_function(wrap_pyfunction!(ensemble::section, module)?)?;
-    module.add_function(wrap_pyfunction!(ensemble::chaos, module)?)?;
-    module.add_function(wrap_pyfunction!(ensemble::transition, module)?)?;
-    module.add_function(wrap_pyfunction!(command::command, module)?)
+mod _native {
+    #[pymodule_export]
+    use super::catalogue::{catalogue, keys};
+    #[pymodule_export]
+    use super::command::command;
+    #[pymodule_export]
+    use super::ensemble::{chaos, ensemble, section, transition};
+    #[pymodule_export]
+    use super::formula::Formula;
+    #[pymodule_export]
+    use super::method::Method;
+    #[pymodule_export]
+    use super::problem::Problem;
+    #[pymodule_export]
+    use super::single::integrate;
+    #[pymodule_export]
+    use super::tableau::Tableau;
+    #[pymodule_export]
+    use super::tables::{audit, import_table, refine};
+
+    /// The version of the package.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -60,21 +60,20 @@ impl Rows {
     }
 
     /// The arrays `t`, `q` and `p`.
-    pub(crate) fn arrays<'py>(
-        self,
-        py: Python<'py>,
-        dimension: usize,
-    ) -> PyResult<(
-        Bound<'py, PyArray1<f64>>,
-        Bound<'py, PyArray2<f64>>,
-        Bound<'py, PyArray2<f64>>,
-    )> {
+    pub(crate) fn arrays<'py>(self, py: Python<'py>, dimension: usize) -> PyResult<Arrays<'py>> {
         let count = self.t.len();
         let shaped = |list: Vec<f64>| list.into_pyarray(py).reshape([count, dimension]);
         let (q, p) = (shaped(self.q)?, shaped(self.p)?);
         Ok((self.t.into_pyarray(py), q, p))
     }
 }
+
+/// Times, positions and momenta.
+type Arrays<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
 
 /// What a trajectory leaves.
 #[derive(Default)]

@@ -132,7 +132,7 @@ def compare(
             methods = _SEPARABLE if system.is_separable else _GENERAL
     sizes = np.atleast_1d(_arrays.numbers(steps, "steps"))
     repeats = _arrays.count(repeats, "repeats", 1)
-    start = {"t": t, "t0": t0, "parameters": parameters}
+    start: dict[str, Any] = {"t": t, "t0": t0, "parameters": parameters}
     if reference is None:
         reference = _reference(system, q, p, float(sizes.min()), start)
     exact = tuple(_arrays.numbers(half, "reference") for half in reference)

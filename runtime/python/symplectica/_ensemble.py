@@ -178,12 +178,13 @@ class Ensemble:
         if str(path).endswith(".parquet"):
             self.to_pandas().to_parquet(path)
             return
-        more = {} if self.megno is None else {"megno": self.megno, "lyapunov": self.lyapunov}
+        more: dict[str, Any] = {} if self.megno is None else {"megno": self.megno, "lyapunov": self.lyapunov}
         if self.section is not None:
             more["section_count"] = np.array([len(states) for states in self.section])
             for key in ("t", "q", "p"):
                 more[f"section_{key}"] = np.concatenate([getattr(states, key) for states in self.section])
-        np.savez(path, t=self.t, q=self.q, p=self.p, failed=self.failed, formula=self.system.text, method=self.method.name or "", step=self.step, **more)
+        facts: dict[str, Any] = {"formula": self.system.text, "method": self.method.name or "", "step": self.step}
+        np.savez(path, t=self.t, q=self.q, p=self.p, failed=self.failed, **facts, **more)
 
     def plot(self, x: str | None = None, y: str | None = None, ax: Any = None) -> Any:
         """A picture with matplotlib: the section, or the last states, in the plane of two coordinates.

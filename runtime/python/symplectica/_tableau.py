@@ -66,10 +66,10 @@ class Properties(Mapping[str, Property]):
         return self._found[name]
 
     def __getattr__(self, name: str) -> Property:
-        try:
-            return self.__dict__["_found"][name]
-        except KeyError:
-            raise AttributeError(name) from None
+        found: dict[str, Property] = self.__dict__.get("_found", {})
+        if name not in found:
+            raise AttributeError(name)
+        return found[name]
 
     def __dir__(self) -> list[str]:
         return sorted({*object.__dir__(self), *self._found})

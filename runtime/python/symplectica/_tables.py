@@ -53,7 +53,7 @@ def _printed(values: Any, key: str) -> str:
 
 
 def audit(
-    a: npt.ArrayLike | Exact | Doubles | str | Path,
+    a: Exact | Doubles | str | Path,
     b: npt.ArrayLike | Exact | None = None,
     a_tilde: npt.ArrayLike | Exact | None = None,
     b_tilde: npt.ArrayLike | Exact | None = None,
