@@ -76,7 +76,8 @@ def audit(
     (4, '1/4 - sqrt(3)/6')
     """
     if isinstance(a, Doubles):
-        a, b, a_tilde, b_tilde = a.a, a.b, a.a_tilde, a.b_tilde
+        made = a
+        a, b, a_tilde, b_tilde = made.a, made.b, made.a_tilde, made.b_tilde
     if isinstance(a, (str, Path)) and b is None:
         path = Path(a)
         try:

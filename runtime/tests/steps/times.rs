@@ -1,10 +1,13 @@
 //! Times: exact ends, equal steps, no accumulated rounding.
 
-use crate::common::distance;
-use crate::common::methods::{Midpoint, StoermerVerlet};
+use core::ops::ControlFlow;
+
+use crate::common::methods::{Gauss4, Midpoint, StoermerVerlet};
 use crate::common::systems::{Pendulum, point};
+use crate::common::{distance, tableau};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Integrator, State};
+use symplectic::output::Moment;
+use symplectic::{Error, Event, Integrator, State, acceleration};
 
 type Verlet = Integrator<StoermerVerlet, Pendulum, Vector1<f64>>;
 
@@ -133,5 +136,41 @@ fn unreachable_end_times_and_step_counts_are_refused() -> Result<(), Error> {
         })
     );
     assert_eq!((integrator.state().time, integrator.steps()), (1.0, 0));
+    Ok(())
+}
+
+/// The largest error of output at 1/7, 2/7, … for the oscillator, alone and beside a search of events, with steps of this size.
+fn output_error(step_size: f64, by_steps: bool) -> Result<f64, Error> {
+    let oscillator = acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q);
+    let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    let times: Vec<f64> = (1..21).map(|k| f64::from(k) / 7.0).collect();
+    let error = |state: &State<Vector1<f64>>| (state.q[0] - state.time.cos()).abs();
+    let mut alone = Integrator::new(tableau(Gauss4), oscillator, start.clone(), step_size)?;
+    alone.set_output_by_steps(by_steps);
+    let mut largest: f64 = 0.0;
+    alone.integrate_at(&times, |state| largest = largest.max(error(state)))?;
+    let mut with_events = Integrator::new(tableau(Gauss4), oscillator, start, step_size)?;
+    with_events.set_output_by_steps(by_steps);
+    let zero = Event::falling(|state: &State<Vector1<f64>>| state.q[0]);
+    let mut beside: f64 = 0.0;
+    with_events.integrate_through(3.0, &times, &zero, |moment| {
+        if let Moment::Output(state) = moment {
+            beside = beside.max(error(state));
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    // The steps to an end are as long, or shorter.
+    assert!(beside <= 2.0 * largest, "{beside:e} {largest:e}");
+    Ok(largest)
+}
+
+#[test]
+fn output_by_steps_has_the_order_of_the_method() -> Result<(), Error> {
+    let [coarse, fine] = [0.5, 0.25].map(|size| output_error(size, true));
+    let order = (coarse? / fine?).log2();
+    assert!((7.5..9.0).contains(&order), "{order}");
+    let [coarse, fine] = [0.5, 0.25].map(|size| output_error(size, false));
+    let order = (coarse? / fine?).log2();
+    assert!((3.5..4.5).contains(&order), "{order}");
     Ok(())
 }

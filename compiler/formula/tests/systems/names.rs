@@ -356,3 +356,31 @@ fn errors_about_lengths_and_ranges_show_the_right_notation() {
         .join("\n"),
     );
 }
+
+#[test]
+fn a_definition_without_a_name_is_the_same_system() {
+    for (named, nameless) in [
+        (
+            "Kepler q: [2], p: [2]; H = |p|^2/2 - 1/|q|",
+            "q: [2], p: [2]; H = |p|^2/2 - 1/|q|",
+        ),
+        (
+            "P { g: 2 } q: [a], v: [va]; L = va^2/2 + g cos(a)",
+            "{ g: 2 } q: [a], v: [va]; L = va^2/2 + g cos(a)",
+        ),
+        (
+            "S let k = 2; q: [x], p: [px]; H = px^2/2 + k x^2",
+            "let k = 2; q: [x], p: [px]; H = px^2/2 + k x^2",
+        ),
+    ] {
+        let equations = |text: &str| {
+            let (read, _) = formula::read(Form::of(text), text);
+            (read.name.clone(), read.equations_of_motion(Notation::Text))
+        };
+        let (name, expected) = equations(named);
+        assert_ne!(name, "System");
+        assert_eq!(equations(nameless), ("System".to_owned(), expected));
+    }
+    // A name that is misspelt is not passed over.
+    assert!(refused("Kepler: q: [2], p: [2]; H = |p|^2/2").contains("found `:`"));
+}
