@@ -202,7 +202,7 @@ pub(crate) fn ensemble<'py>(
         varied,
         count,
     };
-    let job = Job::new(problem, method, &setting, starts)?;
+    let job = Job::new(problem, method, &setting, starts, end)?;
     let dimension = problem.dimension;
     let width = times.len() * dimension;
     let size = count
@@ -265,7 +265,7 @@ pub(crate) fn section<'py>(
         varied: varied.as_slice()?,
         count,
     };
-    let job = Job::new(problem, method, &setting, starts)?;
+    let job = Job::new(problem, method, &setting, starts, end)?;
     let output = Output::Steps(0);
     let work = OneByOne {
         plan: Plan {
@@ -506,7 +506,7 @@ pub(crate) fn chaos<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts)?;
+    let job = Job::new(problem, method, &setting, starts, end)?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Chaos {
@@ -554,7 +554,7 @@ pub(crate) fn transition<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts)?;
+    let job = Job::new(problem, method, &setting, starts, end)?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Follow {

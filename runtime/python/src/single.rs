@@ -271,7 +271,7 @@ pub(crate) fn integrate<'py>(
         varied: varied.as_slice()?,
         count: 1,
     };
-    let job = Job::new(problem, method, &setting, starts)?;
+    let job = Job::new(problem, method, &setting, starts, end)?;
     let work = OneByOne {
         plan: Plan {
             end,

@@ -15,10 +15,15 @@ use crate::errors;
 /// The time between two looks at signals.
 const INTERVAL: Duration = Duration::from_millis(40);
 
+/// Operations that take less than a few milliseconds.
+const SHORT: f64 = 1e6;
+
 /// Sees the evaluations of a run and stops it.
 #[derive(Debug, Default)]
 pub(crate) struct Pulse {
     start: f64,
+    /// Whether the run ends before anybody could stop it: it needs no thread of its own.
+    is_short: bool,
     stopped: AtomicBool,
     /// The largest elapsed time of a trajectory, as bits; they are ordered as the numbers are.
     elapsed: AtomicU64,
@@ -27,9 +32,11 @@ pub(crate) struct Pulse {
 }
 
 impl Pulse {
-    pub(crate) fn new(start: f64) -> Arc<Self> {
+    /// For runs from a time; `operations` are about those of all evaluations.
+    pub(crate) fn new(start: f64, operations: f64) -> Arc<Self> {
         Arc::new(Pulse {
             start,
+            is_short: operations < SHORT,
             ..Pulse::default()
         })
     }
@@ -66,6 +73,10 @@ pub(crate) fn guarded<T: Send>(
     progress: Shown<'_>,
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<(T, Option<PyErr>)> {
+    if pulse.is_short && progress.is_none() {
+        let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+        return Ok((done.map_err(|_| lost())?, None));
+    }
     let progress = progress.map(|function| function.clone().unbind());
     let (done, interrupted) = py.detach(|| {
         let (sender, receiver) = channel();
@@ -101,8 +112,13 @@ pub(crate) fn guarded<T: Send>(
     });
     match done {
         Some(done) => Ok((done, interrupted)),
-        None => Err(errors::internal(
-            "the library made an error that it should not make; please report it with the call",
-        )),
+        None => Err(lost()),
     }
+}
+
+/// The library panicked.
+fn lost() -> PyErr {
+    errors::internal(
+        "the library made an error that it should not make; please report it with the call",
+    )
 }

@@ -128,6 +128,7 @@ impl<'a> Job<'a> {
         method: &Method,
         setting: &'a Setting,
         starts: Starts<'a>,
+        end: f64,
     ) -> PyResult<Self> {
         let (dimension, width) = (problem.dimension, problem.varied);
         let Starts {
@@ -172,7 +173,10 @@ impl<'a> Job<'a> {
                 orders.separable
             )));
         }
-        let pulse = Pulse::new(time);
+        // Coupled stages take some sweeps.
+        let evaluations = (end - time).abs() / setting.step.abs() * (4 * method.0.stages()) as f64;
+        let operations = evaluations * count as f64 * problem.tapes.operations() as f64;
+        let pulse = Pulse::new(time, operations);
         let tableau = method.0.clone();
         Ok(Job {
             problem,

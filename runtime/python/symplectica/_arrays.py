@@ -32,14 +32,14 @@ def number(value: Any, key: str) -> float:
     return float(array)
 
 
-def count(value: Any, key: str, least: int = 0) -> int:
+def count(value: Any, key: str, least: int = 0, most: int = 10**9) -> int:
     """A whole number."""
     try:
         whole = int(value)
     except (TypeError, ValueError, OverflowError):
         whole = least - 1
-    if whole < least or isinstance(value, bool) or whole != value:
-        raise ArgumentError(f"`{key}` must be a whole number from {least}, found {_found(value)}")
+    if not least <= whole <= most or isinstance(value, bool) or whole != value:
+        raise ArgumentError(f"`{key}` must be a whole number from {least} to {most}, found {_found(value)}")
     return whole
 
 
@@ -57,14 +57,13 @@ def rows(array: Array, width: int) -> Array:
 Parameters = Mapping[str, Any]
 
 
-def fixed(parameters: Parameters, known: list[tuple[str, list[str], str | None]]) -> list[tuple[str, list[int], list[float]]]:
-    """Parameters with their shapes and their numbers."""
-    check_names(parameters, known)
-    made = []
-    for name, value in parameters.items():
-        array = numbers(value, name)
-        made.append((name, list(array.shape), array.ravel().tolist()))
-    return made
+def named(parameters: Any) -> dict[str, Any]:
+    """Parameters as a dictionary."""
+    if parameters is None:
+        return {}
+    if not isinstance(parameters, Mapping):
+        raise ArgumentError(f"`parameters` must be a dictionary with the values by name, found {_found(parameters)}")
+    return {str(name): value for name, value in parameters.items()}
 
 
 def check_names(parameters: Parameters, known: list[tuple[str, list[str], str | None]]) -> None:

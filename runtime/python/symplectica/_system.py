@@ -58,9 +58,10 @@ class System:
 
     def __init__(self, text: str, parameters: Mapping[str, Any] | None = None, *, source: str = "the formula") -> None:
         self._native = _native.Formula(source, text)
-        known = self._native.parameters
-        parameters = dict(parameters or {})
-        _arrays.check_names(parameters, known)
+        self._set(_arrays.named(parameters))
+
+    def _set(self, parameters: Mapping[str, Any]) -> None:
+        _arrays.check_names(parameters, self._native.parameters)
         self._parameters = {name: _arrays.numbers(value, name) for name, value in parameters.items()}
         self._problems: dict[Any, _native.Problem] = {}
 
@@ -96,7 +97,10 @@ class System:
         >>> pendulum.with_parameters(g=1.62).parameters
         {'g': 1.62}
         """
-        return System(self.text, {**self._parameters, **parameters})
+        other = System.__new__(System)
+        other._native = self._native
+        other._set({**self._parameters, **parameters})
+        return other
 
     @property
     def equations(self) -> Equations:
@@ -155,15 +159,20 @@ class System:
         """The formula with values, kept for the next run."""
         if (refusal := self._native.refusal) is not None:
             raise ArgumentError(f"runs in Python do not support {refusal}: write a program with the macros, as the book describes")
-        given = _arrays.fixed({**self._parameters, **parameters}, self._native.parameters)
-        given = [entry for entry in given if entry[0] not in varied]
-        shapes = [(name, list(array.shape[1:])) for name, array in varied.items()]
-        key = (dimension, start if self._native.has_friction else 0.0, repr(given), repr(shapes))
-        if key not in self._problems:
+        values = {name: value for name, value in {**self._parameters, **parameters}.items() if name not in varied}
+        arrays = {name: _arrays.numbers(value, name) for name, value in values.items()}
+        shapes = {name: array.shape[1:] for name, array in varied.items()}
+        from_ = start if self._native.has_friction else 0.0
+        key = (dimension, from_, tuple((name, array.shape, array.tobytes()) for name, array in arrays.items()), tuple(shapes.items()))
+        found = self._problems.get(key)
+        if found is None:
+            _arrays.check_names(values, self._native.parameters)
             if len(self._problems) >= 16:
                 self._problems.clear()
-            self._problems[key] = _native.Problem(self._native, dimension, given, shapes, key[1])
-        return self._problems[key]
+            given = [(name, list(array.shape), array.ravel().tolist()) for name, array in arrays.items()]
+            found = _native.Problem(self._native, dimension, given, [(name, list(shape)) for name, shape in shapes.items()], from_)
+            self._problems[key] = found
+        return found
 
     def _halves(self, q: Any, p: Any, v: Any, start: float, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
         """Positions and momenta of equal shape; momenta from velocities if these are given."""
@@ -191,7 +200,7 @@ class System:
         >>> body.momentum([0.0], [3.0])
         array([6.])
         """
-        return self._halves(q, None, v, _arrays.number(t, "t"), parameters or {})[1]
+        return self._halves(q, None, v, _arrays.number(t, "t"), _arrays.named(parameters))[1]
 
     def energy(self, q: npt.ArrayLike, p: npt.ArrayLike, *, t: float = 0.0, parameters: Mapping[str, Any] | None = None) -> float:
         """H at a state.
@@ -202,9 +211,9 @@ class System:
         >>> sy.system("q: [x], p: [px]; H = px^2/2 + x^2/2").energy([1.0], [0.0])
         0.5
         """
-        start = _arrays.number(t, "t")
-        q, p = self._halves(q, p, None, start, parameters or {})
-        problem = self._problem(q.size, start, parameters or {}, {})
+        start, values = _arrays.number(t, "t"), _arrays.named(parameters)
+        q, p = self._halves(q, p, None, start, values)
+        problem = self._problem(q.size, start, values, {})
         return float(problem.energies(np.array([start]), q.reshape(1, -1), p.reshape(1, -1), np.empty((1, 0)))[0])
 
     # Runs.
@@ -289,7 +298,7 @@ class System:
         """
         from ._run import Run
 
-        values = dict(parameters or {})
+        values = _arrays.named(parameters)
         start, end = _arrays.number(t0, "t0"), _arrays.number(t, "t")
         q0, p0 = self._halves(q, p, v, start, values)
         problem = self._problem(q0.size, start, values, {})
@@ -341,8 +350,8 @@ class System:
             raise ArgumentError(f"there are more than 2^53 steps of {size}")
         if solver not in (None, "fixed-point", "newton"):
             raise ArgumentError(f"unknown solver `{solver}`; known here: fixed-point, newton")
-        if threads is not None and _arrays.count(threads, "threads", 1) > 256:
-            raise ArgumentError(f"`threads` is {threads}; at most 256 are possible")
+        if threads is not None:
+            threads = _arrays.count(threads, "threads", 1, 256)
         return {
             "step": float(np.copysign(size, length)),
             "newton": solver == "newton",
@@ -355,7 +364,7 @@ class System:
     def _output(self, output: Any, start: float, end: float) -> list[float] | int:
         if output is None:
             return _ROWS
-        if isinstance(output, (int, np.integer)) and not isinstance(output, bool):
+        if isinstance(output, (int, np.integer, bool)):
             return _arrays.count(output, "output")
         return _times(output, start, end)
 
@@ -425,17 +434,15 @@ class System:
             raise ArgumentError(f"`q` has the shape {q0.shape} and `{key}` the shape {p0.shape}: they must be the same")
         if q0.ndim < 2:
             raise ArgumentError(f"`q` has the shape {q0.shape}; the starts of an ensemble have a first axis for the trajectories")
-        trajectories = q0.shape[0]
-        for value in (parameters or {}).values():
-            if trajectories == 1 and np.ndim(value) > 0:
-                trajectories = max(trajectories, self._varied_length(parameters or {}))
+        values = {name: _arrays.numbers(value, name) for name, value in _arrays.named(parameters).items()}
+        trajectories = q0.shape[0] if q0.shape[0] != 1 else self._varied_length(values)
         if trajectories > q0.shape[0]:
             q0, p0 = (np.repeat(half, trajectories, axis=0) for half in (q0, p0))
         shape = q0.shape[1:]
         dimension = int(np.prod(shape))
         if q0.size == 0:
             raise ArgumentError("there are no starts: give at least one")
-        same, varied = _arrays.split({**self._parameters, **(parameters or {})}, self._native.parameters, trajectories)
+        same, varied = _arrays.split({**self._parameters, **values}, self._native.parameters, trajectories)
         problem = self._problem(dimension, start, same, varied)
         table = np.concatenate([array.reshape(trajectories, -1) for array in varied.values()], axis=1) if varied else np.empty((trajectories, 0))
         table = np.ascontiguousarray(table)
@@ -467,9 +474,10 @@ class System:
             raise _interrupted(signal, result) from None
         return result
 
-    def _varied_length(self, parameters: Mapping[str, Any]) -> int:
+    def _varied_length(self, parameters: Mapping[str, Array]) -> int:
+        """The number of trajectories by the parameters that vary."""
         depth = {name: len(lengths) for name, lengths, _ in self._native.parameters}
-        lengths = [np.shape(value)[0] for name, value in parameters.items() if name in depth and np.ndim(value) == depth[name] + 1]
+        lengths = [value.shape[0] for name, value in parameters.items() if name in depth and value.ndim == depth[name] + 1]
         return max(lengths, default=1)
 
     def _warn_of_times(self, times: list[float], start: float, step: float, method: _native.Method) -> None:
@@ -516,7 +524,7 @@ class System:
         >>> np.allclose(derivative, [[np.cos(1), np.sin(1)], [-np.sin(1), np.cos(1)]], atol=1e-12)
         True
         """
-        values = dict(parameters or {})
+        values = _arrays.named(parameters)
         start, end = _arrays.number(t0, "t0"), _arrays.number(t, "t")
         q0, p0 = self._halves(q, p, None, start, values)
         dimension = q0.size

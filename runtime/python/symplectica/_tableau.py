@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _native
+from . import _arrays, _native
 from ._errors import ArgumentError
 from ._exact import Exact, fraction, to_sympy, unbracketed, words
+from ._paths import read_text
 
 if TYPE_CHECKING:
     from ._system import System
@@ -443,7 +444,7 @@ class Tableau:
         digits : int, optional
             Significant digits of decimals; every digit is correct.
         """
-        return self._native.write(format, digits)
+        return self._native.write(format, None if digits is None else _arrays.count(digits, "digits", 1, 10_000))
 
     def emit(self, language: str, system: System | None = None, kind: str | None = None) -> str:
         """A program that takes steps, one file without dependencies.
@@ -710,16 +711,14 @@ class Doubles:
         order: int = 0,
         name: str = "a method of doubles",
     ) -> None:
-        self.a = np.array(a, dtype=float)
-        self.b = np.array(b, dtype=float)
-        self.a_tilde = self.a if a_tilde is None else np.array(a_tilde, dtype=float)
-        self.b_tilde = self.b if b_tilde is None else np.array(b_tilde, dtype=float)
+        self.a = _arrays.numbers(a, "a")
+        self.b = _arrays.numbers(b, "b")
+        self.a_tilde = self.a if a_tilde is None else _arrays.numbers(a_tilde, "a_tilde")
+        self.b_tilde = self.b if b_tilde is None else _arrays.numbers(b_tilde, "b_tilde")
         for key, array, dimensions in (("a", self.a, 2), ("a_tilde", self.a_tilde, 2), ("b", self.b, 1), ("b_tilde", self.b_tilde, 1)):
             if array.ndim != dimensions:
                 raise ArgumentError(f"`{key}` has {array.ndim} dimensions; it needs {dimensions}")
-        if not 0 <= order <= 1000:
-            raise ArgumentError(f"the order is {order}; it must be from 0 to 1000")
-        self.name, self._order = name, int(order)
+        self.name, self._order = str(name), _arrays.count(order, "order", 0, 1000)
         self._native = _native.Method.of_doubles(
             name, self.a.tolist(), self.a_tilde.tolist(), self.b.tolist(), self.b_tilde.tolist(), [self._order] * 3
         )
@@ -767,12 +766,7 @@ def method(given: str | Path | Mapping[str, Exact] | Tableau | Doubles | Any) ->
     if isinstance(given, Mapping):
         return tableau(**given)
     if isinstance(given, Path) or (isinstance(given, str) and given.endswith((".toml", ".json")) and "\n" not in given):
-        path = Path(given)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise ArgumentError(f"cannot read `{path}`: {error.strerror}") from None
-        return Tableau(_native.Tableau.read(str(path), text))
+        return Tableau(_native.Tableau.read(str(given), read_text(given)))
     if isinstance(given, str):
         if "\n" not in given and "=" not in given:
             return _of_catalogue(given)

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _native
+from . import _arrays, _native
 from ._errors import ArgumentError
 from ._exact import Exact, words
+from ._paths import read_text
 from ._tableau import CLASSES, Doubles, Tableau
 
 
@@ -79,12 +80,7 @@ def audit(
         made = a
         a, b, a_tilde, b_tilde = made.a, made.b, made.a_tilde, made.b_tilde
     if isinstance(a, (str, Path)) and b is None:
-        path = Path(a)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise ArgumentError(f"cannot read `{path}`: {error.strerror}") from None
-        rows: list[dict[str, Any]] = json.loads(_native.audit(str(path), text))["rows"]
+        rows: list[dict[str, Any]] = json.loads(_native.audit(str(a), read_text(a)))["rows"]
         return rows
     if b is None:
         raise ArgumentError("give the weights `b` with the matrix `a`")
@@ -106,12 +102,7 @@ def import_table(path: str | Path, library: str) -> Tableau:
     library : str
         ``sciml``, ``sundials``, ``petsc``, ``rungekutta.jl``, ``odeint``, ``nodepy``, ``mathematica``, ``principia``, ``rebound``, …
     """
-    path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ArgumentError(f"cannot read `{path}`: {error.strerror}") from None
-    tableau, note = _native.import_table(library, str(path), text)
+    tableau, note = _native.import_table(library, str(path), read_text(path))
     if note:
         warnings.warn(note, stacklevel=2)
     return Tableau(tableau)
@@ -180,11 +171,7 @@ def refine(
     True
     """
     if isinstance(kick, (str, Path)):
-        path = Path(kick)
-        try:
-            text, name = path.read_text(encoding="utf-8"), str(path)
-        except OSError as error:
-            raise ArgumentError(f"cannot read `{path}`: {error.strerror}") from None
+        text, name = read_text(kick), str(kick)
     else:
         printed = {"kick": kick, "drift": drift} if weights is None else {"weights": weights}
         lines = [f"name = {json.dumps(name)}", "[claim]"]
@@ -198,12 +185,11 @@ def refine(
             raise ArgumentError("give the claimed `order`, or `perturbed` orders")
         lines.append("[printed]")
         for key, values in printed.items():
-            if values is None:
-                raise ArgumentError(f"give the printed `{key}`")
+            if not isinstance(values, (list, tuple, np.ndarray)):
+                raise ArgumentError(f"`{key}` must be the list of the printed numbers, as texts")
             lines.append(f"{key} = [" + ", ".join(json.dumps(words(value, key)) for value in values) + "]")
         text = "\n".join(lines) + "\n"
-    if not 1 <= digits <= 10_000:
-        raise ArgumentError(f"`digits` is {digits}; it must be from 1 to 10000")
+    digits = _arrays.count(digits, "digits", 1, 10_000)
     shown = _native.refine(name, text, digits, False, nearest)
     facts: dict[str, Any] = json.loads(_native.refine(name, text, digits, True, nearest))
     return Refinement(shown, facts)

@@ -36,12 +36,14 @@ def some(chance: random.Random, depth: int = 0) -> object:
 
 
 def vector(chance: random.Random, size: int) -> object:
-    if chance.random() < 0.1:
+    if chance.random() < 0.05:
         return some(chance)
-    return [chance.choice([0.0, 1.0, -0.5, 0.3, 1e-9, 2.0, 1e200, float("nan")] if chance.random() < 0.2 else [0.0, 1.0, 0.5, 0.3]) for _ in range(size)]
+    return [chance.choice([0.0, 1.0, -0.5, 0.3, 1e-9, 2.0, 1e200, float("nan")] if chance.random() < 0.1 else [0.0, 1.0, 0.5, 0.3]) for _ in range(size)]
 
 
 def tableau(chance: random.Random) -> object:
+    if chance.random() < 0.2:
+        return sy.tableau(basis=f"polynomial({chance.randrange(5)})", nodes=f"gauss({chance.randrange(5)})")
     keys = chance.sample(KEYS, chance.randrange(1, 4))
     return sy.tableau(**{key: some(chance) if chance.random() < 0.2 else chance.choice(VALUES) for key in keys})
 
@@ -59,7 +61,9 @@ def formula(chance: random.Random) -> object:
 
 
 def keywords(chance: random.Random) -> dict[str, object]:
-    arguments: dict[str, object] = {"t": 0.5, "step": 0.1, "method": chance.choice(METHODS)}
+    arguments: dict[str, object] = {"t": 0.5, "step": 0.1, "method": chance.choice(METHODS if chance.random() < 0.3 else METHODS[:4])}
+    if chance.random() < 0.5:
+        return arguments
     choices: dict[str, list[object]] = {
         "t": [0, -0.5, *NUMBERS],
         "t0": NUMBERS,
@@ -83,7 +87,7 @@ def keywords(chance: random.Random) -> dict[str, object]:
 
 def run(chance: random.Random) -> object:
     system = sy.system(chance.choice(FORMULAS))
-    size = chance.choice([1, 2, 3])
+    size = chance.choice([1, 1, 2, 3])
     arguments = keywords(chance)
     if chance.random() < 0.3:
         arguments["events"] = chance.choice(["x", "q[0]", sy.Event("px", terminal=True), sy.Event("x", wall=True, set={"px": "-px"}), sy.Event("t", direction="x"), ["x", 3], {"a": "ln(-1)"}])

@@ -97,6 +97,11 @@ impl Tapes {
         self.constraints.as_ref()
     }
 
+    /// The number of operations of an evaluation of velocity and force, at least one.
+    pub fn operations(&self) -> usize {
+        self.slopes.operations().max(1)
+    }
+
     /// Whether H is conserved along trajectories without any error.
     pub fn energy_is_conserved(&self) -> bool {
         let has_time = self.energy.inputs().any(|input| input == Input::Time);

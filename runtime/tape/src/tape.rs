@@ -197,6 +197,11 @@ impl Tape {
         rows.flat_map(|load| (0..load.count).filter_map(|k| load.input.after(k)))
     }
 
+    /// The number of operations.
+    pub(crate) fn operations(&self) -> usize {
+        self.steps.iter().map(|step| step.count).sum()
+    }
+
     /// The result of a tape that has one.
     pub fn value<T: Scalar>(&self, point: At<'_, T>) -> T {
         let mut result = T::zero();
