@@ -17,6 +17,9 @@ use symplectic_tape::{At, Entry, Parameters, Refusal, Tape, Tapes, Values};
 use crate::errors;
 use crate::formula::Formula;
 
+/// A parameter without values: its name and its dimensions.
+type Dimensions = (String, Vec<usize>);
+
 /// A parameter: its name, its dimensions and its numbers.
 type Given = (String, Vec<usize>, Vec<f64>);
 
@@ -50,17 +53,19 @@ pub(crate) struct Kind {
 #[pymethods]
 impl Problem {
     /// A formula in a number of coordinates. `parameters` have their values; each of `varied` has its dimensions only, because its values
-    /// differ between trajectories.
+    /// differ between trajectories. So has each of `further`, whose values are further coordinates, after the positions and after the momenta.
     #[new]
     fn new(
         py: Python<'_>,
         formula: &Formula,
         dimension: usize,
         parameters: Vec<Given>,
-        varied: Vec<(String, Vec<usize>)>,
+        varied: Vec<Dimensions>,
+        further: Vec<Dimensions>,
         start: f64,
     ) -> PyResult<Self> {
-        let (values, varied) = values(formula.system(), dimension, &parameters, &varied)?;
+        let open = [&varied[..], &further];
+        let (values, [varied, further]) = values(formula.system(), dimension, &parameters, open)?;
         let made = py.detach(|| {
             let mut system = formula.system().clone();
             let invariants = invariants(&mut system, formula, &values, start)?;
@@ -77,7 +82,7 @@ impl Problem {
                 holonomic: constraints_of(system),
             },
             tapes: Arc::new(tapes),
-            dimension,
+            dimension: dimension + further,
             varied,
             start,
             form: formula.form(),
@@ -401,13 +406,13 @@ fn invariants(
     taped.collect()
 }
 
-/// The values of a formula, and the number of values that vary between trajectories.
+/// The values of a formula, and the number of values that vary between trajectories and that are further coordinates.
 fn values(
     system: &System,
     dimension: usize,
     given: &[Given],
-    varied: &[(String, Vec<usize>)],
-) -> PyResult<(Values, usize)> {
+    open: [&[Dimensions]; 2],
+) -> PyResult<(Values, [usize; 2])> {
     let components = system.layout.components();
     let bodies = dimension / components;
     let fixed = match system.layout.length() {
@@ -452,7 +457,8 @@ fn values(
             })?;
         }
     }
-    let mut count = 0;
+    let kinds: [fn(usize) -> Entry; 2] = [Entry::Varied, Entry::Further];
+    let mut counts = [0; 2];
     for Parameter { name, shape } in &system.parameters {
         let lengths: &[Length] = match shape {
             Shape::Pairs => {
@@ -462,13 +468,14 @@ fn values(
             Shape::Number(_) => &[],
             Shape::Array(lengths) => lengths,
         };
-        let varies = varied.iter().find(|(known, _)| known == name);
-        let (dimensions, entries): (&[usize], Vec<Entry>) = match (varies, known(name), shape) {
-            (Some((_, dimensions)), ..) => {
+        let find = |kind: usize| Some((kind, open[kind].iter().find(|(known, _)| known == name)?));
+        let is_open = find(0).or_else(|| find(1));
+        let (dimensions, entries): (&[usize], Vec<Entry>) = match (is_open, known(name), shape) {
+            (Some((kind, (_, dimensions))), ..) => {
                 let size: usize = dimensions.iter().product();
-                let entries = (count..count + size).map(Entry::Varied).collect();
-                count += size;
-                (dimensions, entries)
+                let first = counts[kind];
+                counts[kind] += size;
+                (dimensions, (first..counts[kind]).map(kinds[kind]).collect())
             }
             (None, Some((_, dimensions, numbers)), _) => {
                 if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
@@ -522,7 +529,7 @@ fn values(
         let rows = entries.chunks(width.max(1)).map(<[Entry]>::to_vec);
         values.parameters.push(rows.collect());
     }
-    Ok((values, count))
+    Ok((values, counts))
 }
 
 fn pairs(numbers: &[f64], bodies: usize) -> Option<Vec<[usize; 2]>> {

@@ -116,10 +116,10 @@ class Problem:
     """
     A formula with values.
     """
-    def __new__(cls, /, formula: Formula, dimension: SupportsIndex, parameters: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex]]], varied: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], start: SupportsFloat | SupportsIndex) -> Problem:
+    def __new__(cls, /, formula: Formula, dimension: SupportsIndex, parameters: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex]]], varied: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], further: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], start: SupportsFloat | SupportsIndex) -> Problem:
         """
         A formula in a number of coordinates. `parameters` have their values; each of `varied` has its dimensions only, because its values
-        differ between trajectories.
+        differ between trajectories. So has each of `further`, whose values are further coordinates, after the positions and after the momenta.
         """
     def constraint_errors(self, /, t: Incomplete, q: Incomplete, p: Incomplete, varied: Incomplete) -> Incomplete | None:
         """

@@ -145,10 +145,17 @@ class Run:
             t0=time,
             step=abs(self.step),
             method=self.method,
-            solver="newton" if self._setting.get("newton") else None,
-            accept_lower_order=self._setting.get("accept_lower_order", False),
+            solver="newton" if self._setting["newton"] else None,
+            accept_lower_order=self._setting["accept_lower_order"],
         )
         return derivative
+
+    def parameter_derivatives(self, *names: str) -> dict[str, Array]:
+        """The derivatives of the end by parameters: see :meth:`System.parameter_derivatives`."""
+        time, q, p = self.start
+        return self.system.parameter_derivatives(
+            *names, q=q, p=p, t=self.state[0], t0=time, step=abs(self.step), method=self.method, accept_lower_order=self._setting["accept_lower_order"]
+        )
 
     @property
     def columns(self) -> list[str]:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays, _native
 from ._arrays import Array
-from ._errors import ArgumentError, Interrupted
+from ._errors import ArgumentError, Interrupted, StepError
 from ._events import Event, events_of
 from ._progress import shown
 from ._tableau import Doubles, Tableau, method as method_of, stepping
@@ -170,7 +170,7 @@ class System:
             if len(self._problems) >= 16:
                 self._problems.clear()
             given = [(name, list(array.shape), array.ravel().tolist()) for name, array in arrays.items()]
-            found = _native.Problem(self._native, dimension, given, [(name, list(shape)) for name, shape in shapes.items()], from_)
+            found = _native.Problem(self._native, dimension, given, [(name, list(shape)) for name, shape in shapes.items()], [], from_)
             self._problems[key] = found
         return found
 
@@ -542,15 +542,85 @@ class System:
             np.eye(directions),
             end,
         )
-        if (signal := found["interrupted"]) is not None:
-            raise signal
-        if found["failures"]:
-            from ._errors import StepError
-
-            _, message, kind = found["failures"][0]
-            raise StepError(message, kind=kind)
+        _raise_of(found)
         derivative = np.ascontiguousarray(found["displacements"].T)
         return found["end_q"][0].reshape(q0.shape), found["end_p"][0].reshape(p0.shape), derivative
+
+    def parameter_derivatives(
+        self,
+        *names: str,
+        q: npt.ArrayLike,
+        p: npt.ArrayLike,
+        t: float,
+        step: float,
+        t0: float = 0.0,
+        method: Method | None = None,
+        parameters: Mapping[str, Any] | None = None,
+        threads: int | None = None,
+        solver: str | None = None,
+        accept_lower_order: bool = False,
+    ) -> dict[str, Array]:
+        """The derivatives of the end of a run by parameters, from the variational equations of the method.
+
+        Parameters
+        ----------
+        *names : str
+            Names of parameters with values; all of them if none is given.
+        q, p, t, step, t0, method, parameters, threads, solver, accept_lower_order
+            See :meth:`integrate`.
+
+        Returns
+        -------
+        dict of ndarray
+            ∂(q, p)(t)/∂λ for each parameter λ, shape (2d,) for a number, (2d, …) for an array.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import symplectica as sy
+        >>> oscillator = sy.system("{ k } q: [x], p: [px]; H = px^2/2 + k x^2/2", parameters={"k": 1.0})
+        >>> found = oscillator.parameter_derivatives("k", q=[1.0], p=[0.0], t=1.0, step=0.1, method="gauss-4")
+        >>> bool(abs(found["k"][0] + np.sin(1) / 2) < 1e-12)
+        True
+        """
+        values = {**self._parameters, **{name: _arrays.numbers(value, name) for name, value in _arrays.named(parameters).items()}}
+        chosen = names or tuple(values)
+        for name in chosen:
+            if name not in values:
+                known = ", ".join(values) or "none"
+                raise ArgumentError(f"there is no parameter `{name}` with a value; known here: {known}")
+        start, end = _arrays.number(t0, "t0"), _arrays.number(t, "t")
+        q0, p0 = self._halves(q, p, None, start, values)
+        dimension, further = q0.size, sum(values[name].size for name in chosen)
+        if further == 0:
+            return {}
+        self._problem(dimension, start, values, {})
+        fixed = [(name, list(value.shape), value.ravel().tolist()) for name, value in values.items() if name not in chosen]
+        shapes = [(name, list(values[name].shape)) for name, *_ in self._native.parameters if name in chosen]
+        problem = _native.Problem(self._native, dimension, fixed, [], shapes, start if self._native.has_friction else 0.0)
+        numbers = np.concatenate([values[name].ravel() for name, _ in shapes])
+        displacements = np.zeros((further, 2, dimension + further))
+        for number in range(further):
+            displacements[number, :, dimension + number] = 1.0
+        found = _native.transition(
+            problem,
+            stepping(method if method is not None else self._default(), self._constraints),
+            self._setting(step, end - start, solver, accept_lower_order, False, 0, threads),
+            start,
+            np.tile(np.concatenate([q0.ravel(), numbers]), (further, 1)),
+            np.tile(np.concatenate([p0.ravel(), numbers]), (further, 1)),
+            np.empty((further, 0)),
+            displacements.reshape(further, -1),
+            end,
+        )
+        _raise_of(found)
+        halves = found["displacements"].reshape(further, 2, dimension + further)[:, :, :dimension].reshape(further, 2 * dimension)
+        made, first = {}, 0
+        for name, shape in shapes:
+            size = values[name].size
+            made[name] = np.ascontiguousarray(halves[first : first + size].T).reshape(2 * dimension, *shape)
+            first += size
+        return {name: made[name] for name in chosen}
 
     def compare(
         self,
@@ -610,6 +680,15 @@ def _displacements(q: Array, p: Array, is_explicit: bool) -> Array:
         # It may grow by 10^580 without an overflow.
         length = np.maximum(1e-280 * length, 1e-290)
     return np.ascontiguousarray(length[:, None] * direction[None, :])
+
+
+def _raise_of(found: dict[str, Any]) -> None:
+    """Raises what stopped trajectories that belong together."""
+    if (signal := found["interrupted"]) is not None:
+        raise signal
+    if found["failures"]:
+        _, message, kind = found["failures"][0]
+        raise StepError(message, kind=kind)
 
 
 def _interrupted(signal: BaseException, result: Any) -> BaseException:

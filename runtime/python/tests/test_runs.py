@@ -200,6 +200,35 @@ def test_state_transition_is_symplectic_and_matches_differences(kepler):
         np.testing.assert_allclose(derivative[:, column], (ends[0] - ends[1]) / (2 * small), atol=1e-8)
 
 
+@pytest.mark.parametrize("method", ["gauss-4", "blanes-moan-2002-s10", "lobatto-3"])
+def test_derivatives_by_parameters_match_differences(method):
+    # One parameter is in the kinetic energy, one in the potential, one in both.
+    springs = sy.system(
+        "{ k: [..], m, c } q: [..], p: [..]; H = sum(i: p[i]^2/(2 m)) (1 + c/9) + sum(i: k[i] q[i]^2)/2 + c sum(i: q[i]^4)/4",
+        parameters={"k": [1.0, 2.5], "m": 1.3, "c": 0.4},
+    )
+    arguments = {"q": [1.0, 0.5], "p": [0.2, -0.1], "t": 2.0, "step": 0.05, "method": method}
+    found = springs.parameter_derivatives(**arguments)
+    assert {name: value.shape for name, value in found.items()} == {"k": (4, 2), "m": (4,), "c": (4,)}
+
+    def end(**parameters):
+        _, q, p = springs.integrate(**arguments, output=0, parameters=parameters).state
+        return np.concatenate([q, p])
+
+    small = 1e-6
+    for name in ("m", "c"):
+        value = springs.parameters[name]
+        difference = (end(**{name: value + small}) - end(**{name: value - small})) / (2 * small)
+        np.testing.assert_allclose(found[name], difference, atol=1e-8)
+    for place in range(2):
+        shift = small * np.eye(2)[place]
+        difference = (end(k=springs.parameters["k"] + shift) - end(k=springs.parameters["k"] - shift)) / (2 * small)
+        np.testing.assert_allclose(found["k"][:, place], difference, atol=1e-8)
+    assert list(springs.parameter_derivatives("c", **arguments)) == ["c"]
+    with pytest.raises(sy.ArgumentError, match="no parameter `x`"):
+        springs.parameter_derivatives("x", **arguments)
+
+
 def test_tables_and_files_have_all_columns(pendulum, tmp_path):
     run = pendulum.integrate([1.0], [0.0], t=1, step=0.1)
     run.save(tmp_path / "run.npz")

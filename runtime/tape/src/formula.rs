@@ -68,6 +68,17 @@ impl Tapes {
         let parts = velocity.iter().chain(&force).chain(&applied);
         let parts = parts.map(|part| part.value);
         let mut unrolled = Unrolled::new(system, values, &parts.collect::<Vec<_>>(), Some(start))?;
+        // Further coordinates of the velocity stand after the momenta.
+        let beside = match values.further() {
+            0 => None,
+            _ => {
+                let parts: Vec<_> = velocity.iter().map(|part| part.value).collect();
+                let mut beside =
+                    Unrolled::with_further(system, values, &parts, Some(start), Half::P)?;
+                let velocity = beside.gradient(&velocity)?;
+                Some(beside.tape(&velocity)?)
+            }
+        };
         let velocity = unrolled.gradient(&velocity)?;
         let force = unrolled.gradient(&force)?;
         let force = unrolled.undamped(force)?;
@@ -83,7 +94,10 @@ impl Tapes {
         let of_energy = Unrolled::new(system, values, &[energy], None)?;
         Ok(Tapes {
             slopes: unrolled.tape(&[velocity.as_slice(), &force].concat())?,
-            velocity: unrolled.tape(&velocity)?,
+            velocity: match beside {
+                Some(beside) => beside,
+                None => unrolled.tape(&velocity)?,
+            },
             force: unrolled.tape(&force)?,
             applied,
             factors: factors.map(|factors| unrolled.tape(&factors)).transpose()?,

@@ -84,6 +84,8 @@ pub(crate) struct Unrolled<'a> {
     numbers: HashMap<Value, Number>,
     looked_at: usize,
     damping: Option<Damping>,
+    /// The half after which parameters stand that are further coordinates.
+    further: Half,
 }
 
 /// Friction −γp of trajectories from a time t₀. A tape reads the momenta e^{γ(t − t₀)} p: without the Hamiltonian these do not change.
@@ -102,6 +104,17 @@ impl<'a> Unrolled<'a> {
         roots: &[Id],
         start: Option<f64>,
     ) -> Result<Self, Refusal> {
+        Self::with_further(system, values, roots, start, Half::Q)
+    }
+
+    /// [`new`](Self::new), where parameters that are further coordinates stand after this half.
+    pub(crate) fn with_further(
+        system: &'a System,
+        values: &'a Values,
+        roots: &[Id],
+        start: Option<f64>,
+        further: Half,
+    ) -> Result<Self, Refusal> {
         let rates = start.map_or(&[][..], |_| &system.friction);
         let operations = Operations::new(&system.graph, &[roots, rates].concat());
         let mut unrolled = Unrolled {
@@ -117,6 +130,7 @@ impl<'a> Unrolled<'a> {
             numbers: HashMap::new(),
             looked_at: 0,
             damping: None,
+            further,
         };
         let all: Vec<Op> = unrolled.operations.all().collect();
         for k in 0..system.graph.count_loops() {
@@ -196,7 +210,7 @@ impl<'a> Unrolled<'a> {
             value: self.operations.of(part.value),
         });
         let goals: Vec<_> = goals.collect();
-        let mut sums = vec![None; self.dimension()];
+        let mut sums = vec![None; self.dimension() + self.values.further()];
         self.follow(&statements(&self.operations, 0, &goals), parts, &mut sums)?;
         sums.into_iter()
             .map(|sum| match sum {
@@ -391,6 +405,14 @@ impl<'a> Unrolled<'a> {
                 return match value {
                     Entry::Number(value) => self.constant(value).map(Some),
                     Entry::Varied(k) => self.add(Value::Parameter(k)).map(Some),
+                    Entry::Further(k) => {
+                        let place = self.dimension() + k;
+                        self.add(match self.further {
+                            Half::P => Value::Momentum(place),
+                            Half::Q | Half::V => Value::Position(place),
+                        })
+                        .map(Some)
+                    }
                 };
             }
             Operation::Coordinate(coordinate) => {

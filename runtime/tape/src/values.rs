@@ -26,6 +26,9 @@ pub enum Entry {
     Number(f64),
     /// The number of a parameter that varies between trajectories.
     Varied(usize),
+    /// The number of a parameter that is a further coordinate, without a velocity and a force: it stands after the positions for the force,
+    /// and after the momenta for the velocity. Tangent maps then have derivatives by parameters.
+    Further(usize),
 }
 
 /// The index of each loop being unrolled; for a list of pairs, the number of the pair.
@@ -38,6 +41,16 @@ impl Values {
             bodies,
             ..Values::default()
         }
+    }
+
+    /// The number of parameters that are further coordinates.
+    pub(crate) fn further(&self) -> usize {
+        let entries = self.parameters.iter().flatten().flatten();
+        let numbers = entries.filter_map(|entry| match entry {
+            Entry::Further(k) => Some(k + 1),
+            Entry::Number(_) | Entry::Varied(_) => None,
+        });
+        numbers.max().unwrap_or(0)
     }
 
     /// A length, if known.
