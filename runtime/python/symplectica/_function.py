@@ -194,8 +194,8 @@ def python_function(velocity: Function, force: Function, energy: Function | None
     Examples
     --------
     >>> import numpy as np
-    >>> from symplectica._function import python_function
-    >>> pendulum = python_function(lambda t, q, p: p, lambda t, q, p: -np.sin(q), lambda t, q, p: p @ p / 2 - np.cos(q).sum())
+    >>> import symplectica as sy
+    >>> pendulum = sy.python_function(lambda t, q, p: p, lambda t, q, p: -np.sin(q), lambda t, q, p: p @ p / 2 - np.cos(q).sum())
     >>> run = pendulum.integrate([1.0], [0.0], t=10, step=0.1)
     >>> run.q.shape, bool(abs(run.energy_error).max() < 1e-10)
     ((101, 1), True)

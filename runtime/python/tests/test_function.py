@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import symplectica as sy
-from symplectica._function import PythonFunction, python_function
+from symplectica import python_function
+from symplectica._function import PythonFunction
 
 KEPLER = "q: [2], p: [2]; H = |p|^2/2 - 1/|q|"
 START = [0.4, 0.0], [0.0, 2.0]
