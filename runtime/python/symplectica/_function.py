@@ -51,17 +51,13 @@ class FunctionRun:
     step: float
 
 
-def _order(a: Array, a_tilde: Array, separable: bool) -> list[tuple[int, int]] | None:
-    """The order of evaluations (0: velocity, 1: force; stage) if the method is explicit for the system.
+def _order(a: Array, a_tilde: Array) -> list[tuple[int, int]] | None:
+    """The order of evaluations (0: velocity, 1: force; stage) if the method is explicit for separable systems.
 
-    The velocity of stage j needs P_j, so the forces k with ã_jk ≠ 0; the force needs Q_j.
+    The velocity of stage j needs P_j, so the forces k with ã_jk ≠ 0; the force needs Q_j, so the velocities k with a_jk ≠ 0.
     """
-    own, other, needs = (a, a_tilde), (a_tilde, a), {}
-    for half in (0, 1):
-        for j in range(len(a)):
-            needs[half, j] = {(1 - half, int(k)) for k in np.flatnonzero(other[half][j])}
-            if not separable:
-                needs[half, j] |= {(half, int(k)) for k in np.flatnonzero(own[half][j])}
+    stages = range(len(a))
+    needs = {(half, j): [(1 - half, int(k)) for k in np.flatnonzero(row[j])] for half, row in enumerate((a_tilde, a)) for j in stages}
     try:
         return list(TopologicalSorter(needs).static_order())
     except CycleError:
@@ -120,7 +116,8 @@ class _Stages:
     def __init__(self, system: PythonFunction, method: Tableau | Doubles, shape: tuple[int, ...], h: float) -> None:
         self._functions = (system.velocity, system.force)
         self._a, self._b, self._h, self._shape = (method.a, method.a_tilde), (method.b, method.b_tilde), h, shape
-        self._order = _order(*self._a, system.separable)
+        # No symplectic method is explicit for every H.
+        self._order = _order(*self._a) if system.separable else None
         self._nodes = self._order or [(half, j) for j in range(len(method.b)) for half in (0, 1)]
         # A stage that nothing depends on is not evaluated.
         self._nodes = [(half, j) for half, j in self._nodes if self._b[half][j] or self._a[half][:, j].any()]

@@ -177,14 +177,13 @@ class _Writer:
     def _sum(self, e: Any) -> str:
         text = ""
         for term in e.as_ordered_terms():
-            own, strength = self._written(term)
-            minus = own.startswith("-")
-            if minus:
-                # The text of a negative term is `-` and a product.
-                own = own[1:]
-            elif strength < _PRODUCT:
-                own = f"({own})"
-            text += (" - " if minus else " + ") + own if text else "-" * minus + own
+            own = self.text(term)
+            if not text:
+                text = own
+            elif own.startswith("-"):
+                text += f" - {own[1:]}"
+            else:
+                text += f" + {own}"
         return text
 
     def _product(self, e: Any) -> tuple[str, int]:

@@ -18,6 +18,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -82,7 +83,10 @@ def from_simulation(simulation: Any, *, softening: float | None = None) -> tuple
     if int(simulation.N_active) < count:
         raise ArgumentError(f"the bodies from number {simulation.N_active} are test particles: integrate the others as bodies, and leave these out")
     if not simulation.is_synchronized:
-        simulation = simulation.copy()
+        with warnings.catch_warnings():
+            # The copy has no functions of the user.
+            warnings.simplefilter("ignore", RuntimeWarning)
+            simulation = simulation.copy()
         simulation.synchronize()
     bodies = [simulation.particles[k] for k in range(count)]
     m = np.array([body.m for body in bodies])

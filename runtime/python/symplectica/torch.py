@@ -23,6 +23,8 @@ from ._system import Method, System
 
 __all__ = ["end_state"]
 
+_FIRST_ONLY = "the end of a run has first derivatives only: no second ones, as in `hessian`"
+
 
 def end_state(
     system: System,
@@ -69,6 +71,27 @@ def end_state(
         starts = [half.detach().cpu().double().numpy() for half in (q, p)]
         return tuple(torch.from_numpy(array).to(q) for array in made.transitions(starts[0], starts[1], batch))
 
+    class _Once(torch.autograd.Function):
+        """M as a first derivative uses it: its own derivative, which a second one needs, is an error."""
+
+        @staticmethod
+        def forward(matrix: Any) -> Any:
+            return matrix.clone()
+
+        @staticmethod
+        def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
+            pass
+
+        @staticmethod
+        def backward(ctx: Any, _: Any) -> Any:
+            raise RuntimeError(_FIRST_ONLY)
+
+        jvp = backward
+
+        @staticmethod
+        def vmap(info: Any, axes: Any, matrix: Any) -> Any:
+            return _Once.apply(matrix), axes[0]
+
     class _EndState(torch.autograd.Function):
         """The end and M, which backward passes use."""
 
@@ -79,22 +102,19 @@ def end_state(
         @staticmethod
         def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
             ctx.batch = inputs[2]
-            ctx.mark_non_differentiable(output[2])
             ctx.save_for_backward(output[2])
             ctx.save_for_forward(output[2])
 
         @staticmethod
-        @torch.autograd.function.once_differentiable
         def backward(ctx: Any, of_q: Any, of_p: Any, _: Any) -> Any:
-            (matrix,) = ctx.saved_tensors
-            moved = _flat(of_q, of_p, ctx.batch).unsqueeze(-2) @ matrix
+            moved = _flat(of_q, of_p, ctx.batch).unsqueeze(-2) @ _Once.apply(*ctx.saved_tensors)
             return *_halves(moved.squeeze(-2), of_q.shape), None
 
         @staticmethod
         def jvp(ctx: Any, of_q: Any, of_p: Any, _: Any) -> Any:
             (matrix,) = ctx.saved_tensors
-            moved = matrix @ _flat(of_q, of_p, ctx.batch).unsqueeze(-1)
-            return *_halves(moved.squeeze(-1), of_q.shape), None
+            moved = _Once.apply(matrix) @ _flat(of_q, of_p, ctx.batch).unsqueeze(-1)
+            return *_halves(moved.squeeze(-1), of_q.shape), torch.zeros_like(matrix)
 
         @staticmethod
         def vmap(info: Any, axes: Any, q: Any, p: Any, batch: int) -> Any:

@@ -69,6 +69,12 @@ class TestJax:
         assert cotangent @ np.asarray(forward) == pytest.approx(tangent @ np.asarray(transposed(self.jnp.array(cotangent))[0]), rel=1e-13)
         assert np.allclose(forward, JACOBIAN @ tangent, rtol=0, atol=TOLERANCE)
 
+    @pytest.mark.parametrize("first", ["jacfwd", "jacrev"])
+    @pytest.mark.parametrize("second", ["jacfwd", "jacrev"])
+    def test_second_derivative_is_refused(self, first: str, second: str) -> None:
+        with pytest.raises(ValueError, match="do not support JVP"):
+            getattr(self.jax, second)(getattr(self.jax, first)(lambda y: (self.whole(y) ** 2).sum()))(self.jnp.array(START))
+
     @pytest.mark.parametrize("compiled", [False, True])
     def test_vmap_of_value_and_gradient_is_that_of_each_start(self, compiled: bool) -> None:
         starts = START + 0.01 * np.arange(3)[:, None]
@@ -162,11 +168,19 @@ class TestTorch:
         q, _ = self.end(self.torch.tensor(Q).float(), self.torch.tensor(P).float())
         assert q.dtype == self.torch.float32 and np.allclose(q.numpy(), ends(START)[:2], rtol=0, atol=1e-5)
 
-    def test_second_derivative_is_refused(self) -> None:
+    def test_second_derivative_by_backward_is_refused(self) -> None:
         start = self.start(requires_grad=True)
-        (gradient,) = self.torch.autograd.grad(self.whole(start)[0], start, create_graph=True)
-        with pytest.raises(RuntimeError):
+        # Without its part in M the second derivative of a square would be wrong, not absent.
+        (gradient,) = self.torch.autograd.grad(self.whole(start)[0] ** 2, start, create_graph=True)
+        with pytest.raises(RuntimeError, match="first derivatives only"):
             gradient.sum().backward()
+
+    @pytest.mark.parametrize("first", ["jacfwd", "jacrev"])
+    @pytest.mark.parametrize("second", ["jacfwd", "jacrev"])
+    def test_second_derivative_by_transforms_is_refused(self, first: str, second: str) -> None:
+        func = self.torch.func
+        with pytest.raises(RuntimeError, match="first derivatives only"):
+            getattr(func, second)(getattr(func, first)(lambda y: (self.whole(y) ** 2).sum()))(self.start())
 
     @pytest.mark.parametrize("other", [P[:1], P.astype(np.float32), [0.0, 1.0]])
     def test_start_that_does_not_fit_is_refused(self, other: Any) -> None:

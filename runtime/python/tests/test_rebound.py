@@ -76,15 +76,26 @@ def test_simulation_is_not_changed() -> None:
     assert np.array_equal(states(simulation), before) and simulation.t == 0
 
 
-def test_simulation_inside_its_steps_gives_the_state_at_its_end() -> None:
+def test_simulation_between_half_steps_gives_the_state_at_the_end_of_the_step() -> None:
     simulation = two_planets()
-    simulation.integrator = "leapfrog"
+    simulation.integrator = "whfast"
+    simulation.integrator.safe_mode = 0
     simulation.dt = 0.01
-    simulation.steps(3)
-    _, q, _ = from_simulation(simulation)
-    copy = simulation.copy()
-    copy.synchronize()
-    assert np.array_equal(q, states(copy)[:, :3])
+    seen = []
+
+    def look(pointer: Any) -> None:
+        inside = pointer.contents
+        if inside.steps_done == 3:
+            seen.append((inside.is_synchronized, states(inside)[:, :3], from_simulation(inside)[1], inside.is_synchronized))
+
+    simulation.heartbeat = look
+    simulation.integrate(0.1, exact_finish_time=0)
+    [(before, raw, q, after)] = seen
+    own = two_planets()
+    own.integrator, own.dt = "whfast", 0.01
+    own.steps(3)
+    assert (before, after) == (0, 0)
+    assert np.allclose(q, states(own)[:, :3], rtol=0, atol=1e-15) and not np.allclose(raw, q, atol=1e-4)
 
 
 def change(key: str, value: Any) -> Any:

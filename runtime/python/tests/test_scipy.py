@@ -101,6 +101,24 @@ def test_terminal_event_ends_the_run_with_its_state() -> None:
     assert np.allclose(found.sol(times)[0], 1 - 9.81 * times**2 / 2, rtol=0, atol=1e-13)
 
 
+def test_dense_output_before_a_terminal_event_is_that_of_the_run_without_an_end() -> None:
+    # A step of 0.5 of the midpoint rule has an error of 1e-2, and a shorter last one another.
+    ended, whole = (
+        sy.solve_ivp(OSCILLATOR, (0, 3), [1, 0], "gauss-1", step=0.5, events=events, dense_output=True) for events in (sy.Event("x", terminal=True), None)
+    )
+    assert 1.5 < ended.sol.t_max < 2
+    times = np.array([1.1, 1.3, ended.sol.t_max - 0.01])
+    assert np.allclose(ended.sol(times), whole.sol(times), rtol=0, atol=1e-14)
+
+
+def test_dense_output_up_to_a_wall_that_ends_the_run_has_all_times() -> None:
+    floor = sy.Event("y", wall=True, set={"py": "-py"}, terminal=2)
+    found = sy.solve_ivp(BALL, (0, 3), [1, 0], step=0.1, events=floor, dense_output=True)
+    end = 3 * np.sqrt(2 / 9.81)
+    assert found.status == 1 and found.sol.t_max == pytest.approx(end, rel=1e-14)
+    assert found.sol([end / 3 + 0.1, end / 3 + 0.2, found.sol.t_max]).shape == (2, 3)
+
+
 def test_times_after_a_terminal_event_have_no_states() -> None:
     for dense in (False, True):
         event = sy.Event("y", terminal=True)

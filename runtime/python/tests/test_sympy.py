@@ -67,8 +67,9 @@ def test_rational_number_stays_exact() -> None:
     assert "(1/3) x²" in system.hamiltonian
 
 
-def test_float_is_its_shortest_decimal() -> None:
+def test_float_is_its_shortest_decimal_and_keeps_more_digits_than_those_of_a_double() -> None:
     assert "0.1*x^2" in text_of(px**2 / 2 + 0.1 * x**2, q=[x], p=[px])[0]
+    assert "0.12345678901234567890*x" in text_of(px**2 / 2 + sympy.Float("0.12345678901234567890") * x, q=[x], p=[px])[0]
 
 
 def test_names_that_the_language_does_not_allow_are_changed_to_different_names() -> None:
@@ -115,6 +116,19 @@ def test_lagrangian_of_mechanics_in_functions_of_time_is_read_without_naming_vel
     text = sy.system("{g} q: [x, a], v: [vx, va]; L = ((vx + cos(a) va)^2 + (sin(a) va)^2)/2 + vx^2 + g cos(a) + t x", parameters={"g": 9.81})
     state = [0.3, 0.5], [0.2, -0.4]
     assert system.energy(*state, t=0.7) == pytest.approx(text.energy(*state, t=0.7), rel=1e-15)
+
+
+def test_hamiltonian_in_functions_of_time_has_no_velocities() -> None:
+    q, p = sympy.Function("x")(t), sympy.Function("p_x")(t)
+    text, _ = text_of(p**2 / 2 + t * q, q=[q], p=[p])
+    assert text == "q: [x], p: [p_x];\nH = t*x + p_x^2/2;"
+    assert sy.System(text).energy([2], [0], t=3) == 6
+
+
+def test_sums_in_sums_have_the_value_of_the_whole() -> None:
+    inner = sympy.Add(-x, sympy.Add(3, -px, evaluate=False), evaluate=False)
+    nested = sympy.Add(px**2, sympy.Mul(-1, inner, evaluate=False), inner, sympy.Add(2, x, evaluate=False), evaluate=False)
+    assert sy.system(nested, q=[x], p=[px]).energy([5], [7]) == 49 + 2 + 5
 
 
 def test_equations_of_a_double_pendulum_from_sympy_agree_with_the_formula_in_text() -> None:
