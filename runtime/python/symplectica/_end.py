@@ -12,6 +12,7 @@ from . import _arrays
 from ._arrays import Array
 from ._errors import ArgumentError, StepError
 from ._system import Method, System
+from ._tableau import method as method_of
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,10 @@ class End:
     def __post_init__(self) -> None:
         if not isinstance(self.system, System):
             raise ArgumentError(f"found {type(self.system).__name__}, expected a System")
+        # Inside JAX an error has another type.
+        _arrays.check_names(self.parameters or {}, self.system._native.parameters)
+        if self.method is not None:
+            method_of(self.method)
 
     @property
     def _run(self) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from functools import reduce
 from typing import Any
 
@@ -232,8 +232,11 @@ def _listed(value: Any) -> list[Any]:
     """A list of expressions; a single one is a list of one."""
     if value is None:
         return []
-    single = getattr(value, "is_Symbol", False) or hasattr(value, "is_commutative") and not hasattr(value, "shape")
-    return [value] if single or not isinstance(value, Iterable) else list(value)
+    if isinstance(value, Set):
+        raise ArgumentError(f"found the set {value}, which has no order: give a list")
+    sympy = _sympy()
+    is_list = isinstance(value, sympy.MatrixBase) or isinstance(value, Iterable) and not isinstance(value, sympy.Expr)
+    return list(value) if is_list else [value]
 
 
 def _coordinates(given: Any, key: str) -> list[Any]:

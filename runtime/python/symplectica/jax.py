@@ -51,8 +51,9 @@ def end_state(
     Returns
     -------
     function
-        ``(q, p) -> (q, p)``, arrays of the same shape. Under ``vmap`` the starts run as an ensemble. Runs have double precision; the results
-        have the precision of the start, so switch on ``jax_enable_x64``. Runs are on the CPU. A failed step is an error of the callback.
+        ``(q, p) -> (q, p)``, arrays of the same shape. Under ``vmap`` the starts run as an ensemble; their derivatives one after the other. Runs
+        have double precision; the results have the precision of the start, so switch on ``jax_enable_x64``. Runs are on the CPU. A failed step
+        is an error of the callback.
 
     Raises
     ------

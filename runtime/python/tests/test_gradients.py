@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import sys
 from typing import Any
 
 import numpy as np
@@ -192,8 +194,6 @@ class TestTorch:
 def test_step_that_fails_is_an_error(package: str) -> None:
     pytest.importorskip(package)
     steep = sy.system("q: [y], p: [py]; H = py^2/2 + exp(y)")
-    import importlib
-
     end = importlib.import_module(f"symplectica.{package}").end_state(steep, -200.0, 50.0)
     start = np.zeros(1) if package == "jax" else importlib.import_module("torch").zeros(1)
     with pytest.raises(Exception, match="did not converge"):
@@ -201,9 +201,25 @@ def test_step_that_fails_is_an_error(package: str) -> None:
 
 
 @pytest.mark.parametrize("package", ["jax", "torch"])
+@pytest.mark.parametrize(
+    ("keywords", "words"), [({"method": "gaus-4"}, "unknown method"), ({"parameters": {"G": 1}}, "no parameter `G`"), ({"t0": np.nan}, "not finite")]
+)
+def test_argument_that_does_not_fit_is_refused_before_a_run(package: str, keywords: dict[str, Any], words: str) -> None:
+    pytest.importorskip(package)
+    with pytest.raises(sy.SymplecticError, match=words):
+        importlib.import_module(f"symplectica.{package}").end_state(KEPLER, 1.0, 0.1, **keywords)
+
+
+@pytest.mark.parametrize(("package", "words"), [("jax", "pip install jax"), ("torch", "pip install torch")])
+def test_package_that_is_not_installed_is_named(package: str, words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    module = importlib.import_module(f"symplectica.{package}")
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=words):
+        module.end_state(KEPLER, 1.0, 0.1)
+
+
+@pytest.mark.parametrize("package", ["jax", "torch"])
 def test_system_of_another_type_is_refused(package: str) -> None:
     pytest.importorskip(package)
-    import importlib
-
     with pytest.raises(sy.ArgumentError, match="expected a System"):
         importlib.import_module(f"symplectica.{package}").end_state("q: [x], p: [px]; H = px^2", 1.0, 0.1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -125,6 +126,12 @@ def with_a_massless_body() -> Any:
 def test_simulation_that_is_no_hamiltonian_system_of_bodies_is_refused(make: Any, words: str) -> None:
     with pytest.raises(sy.ArgumentError, match=words):
         from_simulation(make())
+
+
+def test_rebound_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "rebound", None)
+    with pytest.raises(ImportError, match="pip install rebound"):
+        from_simulation(two_planets)
 
 
 def test_run_of_another_system_is_refused() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -188,6 +189,11 @@ def test_value_that_is_given_at_the_run_is_used() -> None:
     assert system.energy([1], [2], parameters={"g": 3}) == 4
 
 
+@pytest.mark.parametrize("kind", [tuple, np.array, sympy.Matrix, sympy.ImmutableMatrix, lambda symbols: sympy.Tuple(*symbols)])
+def test_coordinates_in_any_sequence_keep_their_order(kind: Any) -> None:
+    assert text_of(px**2 + py**2 + x - y, q=kind([y, x]), p=kind([py, px]))[0].startswith("q: [y, x], p: [p_y, p_x];")
+
+
 def test_indexed_coordinates_are_named_by_their_indices() -> None:
     q = sympy.IndexedBase("r")
     p = sympy.MatrixSymbol("s", 2, 1)
@@ -238,6 +244,7 @@ def test_symbol_t_without_a_meaning_is_refused() -> None:
         ({"q": [x, y], "p": [px]}, "`p` has 1 coordinates, and `q` has 2"),
         ({"q": [x, x], "p": [px, py]}, "twice"),
         ({"q": ["x"], "p": [px]}, "expected a symbol"),
+        ({"q": {x, y}, "p": [px, py]}, "has no order"),
         ({"q": [x], "p": [px], "parameters": {"k": 1}}, "the key `k`"),
         ({"q": [x], "p": [px], "parameters": {sympy.Symbol("m"): 1}}, "other assumptions"),
         ({"q": [x], "p": [px], "parameters": {m: 1, "m": 2}}, "two values"),
@@ -250,6 +257,14 @@ def test_symbol_t_without_a_meaning_is_refused() -> None:
 )
 def test_argument_that_does_not_fit_is_named(keywords: dict[str, Any], words: str) -> None:
     assert words in reason(px**2 / (2 * m) + x, **keywords)
+
+
+def test_sympy_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    with pytest.raises(ImportError, match="pip install sympy"):
+        text_of(px**2, q=[x], p=[px])
+    with pytest.raises(ImportError, match="pip install sympy"):
+        expression_of(sy.system("q: [x], p: [px]; H = px^2/2"))
 
 
 def test_formula_that_is_no_expression_is_refused() -> None:
