@@ -162,7 +162,6 @@ def solve_ivp(
     step: float | None = None,
     max_step: float | None = None,
     parameters: Mapping[str, Any] | None = None,
-    sums: str = "compensated",
     solver: str | None = None,
     accept_lower_order: bool = False,
     **options: Any,
@@ -193,7 +192,7 @@ def solve_ivp(
         The step size.
     max_step : float, optional
         The step size, if `step` is not given.
-    parameters, sums, solver, accept_lower_order
+    parameters, solver, accept_lower_order
         As for :meth:`System.integrate`.
 
     Returns
@@ -271,7 +270,7 @@ def solve_ivp(
     output: Any = _EVERY_STEP if times is None or dense_output else times if times.size else 0
     status, message = 0, "The solver successfully reached the end of the integration interval."
     half = y.size // 2
-    more: dict[str, Any] = {"sums": sums, "solver": solver, "accept_lower_order": accept_lower_order}
+    more: dict[str, Any] = {"solver": solver, "accept_lower_order": accept_lower_order}
     try:
         run = fun.integrate(
             y[:half],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import importlib
 import sys
 from typing import Any
@@ -188,6 +189,13 @@ class TestTorch:
     def test_start_that_does_not_fit_is_refused(self, other: Any) -> None:
         with pytest.raises(sy.ArgumentError):
             self.end(self.torch.tensor(Q), self.torch.from_numpy(other) if isinstance(other, np.ndarray) else other)
+
+
+@pytest.mark.parametrize("package", ["jax", "torch"])
+def test_example_of_the_module_runs(package: str) -> None:
+    pytest.importorskip(package)
+    results = doctest.testmod(importlib.import_module(f"symplectica.{package}"))
+    assert results.attempted > 0 and results.failed == 0
 
 
 @pytest.mark.parametrize("package", ["jax", "torch"])

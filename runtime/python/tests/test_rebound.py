@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import sys
 from typing import Any
 
@@ -126,6 +127,11 @@ def with_a_massless_body() -> Any:
 def test_simulation_that_is_no_hamiltonian_system_of_bodies_is_refused(make: Any, words: str) -> None:
     with pytest.raises(sy.ArgumentError, match=words):
         from_simulation(make())
+
+
+def test_example_of_the_module_runs() -> None:
+    results = doctest.testmod(sys.modules[from_simulation.__module__])
+    assert results.attempted > 0 and results.failed == 0
 
 
 def test_rebound_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
