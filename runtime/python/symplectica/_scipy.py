@@ -39,8 +39,8 @@ _OPTIONS = {
     "vectorized": _DERIVED,
 }
 
-#: A number of rows that no run reaches: every step is kept.
-_EVERY_STEP = 2**53
+#: The largest number of steps that are all kept.
+_EVERY_STEP = 10**8
 
 
 class OdeResult(dict[str, Any]):
@@ -267,7 +267,10 @@ def solve_ivp(
             raise ArgumentError(f"the times in `t_eval` must be in `t_span`, from {start} to {end}; found {times[0]} to {times[-1]}")
 
     zeros = _events(events)
-    output: Any = _EVERY_STEP if times is None or dense_output else times if times.size else 0
+    keeps_steps = times is None or dense_output
+    if keeps_steps and abs(end - start) > _EVERY_STEP * _arrays.number(size, "step") > 0:
+        raise ArgumentError("there are more than 10^8 steps, and all are kept: give `t_eval`, the times to keep, without `dense_output`")
+    output: Any = _EVERY_STEP + 1 if keeps_steps or times is None else times if times.size else 0
     status, message = 0, "The solver successfully reached the end of the integration interval."
     half = y.size // 2
     more: dict[str, Any] = {"solver": solver, "accept_lower_order": accept_lower_order}
@@ -293,7 +296,7 @@ def solve_ivp(
 
     t, states = run.t, _columns(run)
     last, *final = run.state
-    if output is _EVERY_STEP and last != t[-1]:
+    if keeps_steps and last != t[-1]:
         # An event ended the run inside a step.
         t, states = np.append(t, last), np.column_stack([states, np.concatenate(final)])
     solution = None

@@ -174,12 +174,14 @@ def test_constraints_have_their_own_default_method() -> None:
         ({"method": "RK45"}, "not symplectic"),
         ({"events": lambda t, y: y[0]}, "the text of an expression"),
         ({"events": [1]}, "found int"),
+        ({"step": 1e-9}, "give `t_eval`"),
+        ({"step": -0.1}, "must be positive"),
         ({"t_eval": [0.5, 0.2]}, "sorted"),
         ({"t_eval": [0.5, 1.2]}, "must be in `t_span`"),
     ],
 )
 def test_option_without_meaning_is_refused_with_a_hint(keywords: dict[str, Any], words: str) -> None:
-    assert words in reason(OSCILLATOR, (0, 1), [1, 0], step=0.1, **keywords)
+    assert words in reason(OSCILLATOR, (0, 1), [1, 0], **{"step": 0.1, **keywords})
 
 
 def test_python_function_is_refused_with_both_ways_out() -> None:
