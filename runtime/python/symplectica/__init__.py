@@ -16,6 +16,7 @@ systems                           :func:`system`, :class:`System`
 runs                              :meth:`System.integrate`, :meth:`System.ensemble`, :meth:`System.compare`
 derivatives of runs               :meth:`System.state_transition`, ``symplectica.jax``, ``symplectica.torch``
 in place of SciPy's               :func:`solve_ivp`
+Python functions, slowly          :func:`python_function`
 from and to REBOUND               ``symplectica.rebound``
 the command line                  ``python -m symplectica``, :func:`run_file`
 ================================  =====================================================================================
@@ -26,6 +27,7 @@ from ._ensemble import Ensemble, Failure
 from ._errors import ArgumentError, DefinitionError, Interrupted, ProofError, StepError, SymplecticError
 from ._events import Event, Events, States
 from ._files import run_file
+from ._function import python_function
 from ._native import __version__
 from ._run import Run
 from ._scipy import solve_ivp
@@ -65,6 +67,7 @@ __all__ = [
     "composition",
     "import_table",
     "method",
+    "python_function",
     "refine",
     "run_file",
     "solve_ivp",
