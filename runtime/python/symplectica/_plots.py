@@ -42,10 +42,15 @@ def plot_run(run: Run, kind: str | None, ax: Any) -> Any:
         components = run.system._native.layout[1]
         bodies = range(0, dimension, components) if components > 1 else [0]
         for body in bodies:
-            ax.plot(q[:, body], q[:, body + 1], label=positions[body].split("[0]")[0] if len(bodies) > 1 else None)
+            name = positions[body].removesuffix("[0]")
+            (line,) = ax.plot(q[:, body], q[:, body + 1], label=name if len(bodies) > 1 else None)
+            if len(bodies) > 1:
+                # Where the body is at the end; without a line of its own in the legend.
+                ax.plot(q[-1, body], q[-1, body + 1], "o", color=line.get_color(), markersize=4, label="_end")
         if 1 < len(bodies) <= 12:
             ax.legend()
-        ax.set(xlabel=positions[0], ylabel=positions[1])
+        names = positions[:2] if len(bodies) == 1 else [name.replace("[0]", "[i]", 1) for name in positions[:2]]
+        ax.set(xlabel=names[0], ylabel=names[1])
         ax.set_aspect("equal", adjustable="datalim")
     elif kind == "time":
         for place, name in list(enumerate(positions))[:12]:
@@ -73,12 +78,20 @@ def plot_ensemble(ensemble: Ensemble, x: str | None, y: str | None, ax: Any) -> 
 
 def plot_comparison(comparison: Comparison, ax: Any) -> Any:
     """Draws a work–precision diagram: see :meth:`Comparison.plot`."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     ax = _axes(ax)
     names = list(dict.fromkeys(found.method for found in comparison.measurements))
+    times = [1e3 * found.seconds for found in comparison.measurements if np.isfinite(found.error)]
     for name in names:
+        # In the order of the steps: times have noise.
         good = [found for found in comparison.measurements if found.method == name and np.isfinite(found.error)]
-        good.sort(key=lambda found: found.seconds)
-        ax.loglog([found.seconds for found in good], [found.error for found in good], "o-", label=name)
-    ax.set(xlabel="time of a run in s", ylabel="relative error at the end")
+        good.sort(key=lambda found: found.step)
+        ax.loglog([1e3 * found.seconds for found in good], [found.error for found in good], "o-", label=name)
+    is_wide = bool(times) and max(times) > 100 * min(times)
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0,) if is_wide else (1.0, 2.0, 5.0)))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.set(xlabel="time of a run in ms", ylabel="relative error at the end")
     ax.legend()
     return ax
