@@ -55,7 +55,8 @@ def plot_run(run: Run, kind: str | None, ax: Any) -> Any:
     elif kind == "time":
         for place, name in list(enumerate(positions))[:12]:
             ax.plot(run.t, q[:, place], label=name)
-        ax.legend()
+        # Beside the curves, which fill the axes.
+        ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
         ax.set(xlabel="t")
     else:
         ax.plot(run.t, run.energy_error)
@@ -70,8 +71,10 @@ def plot_ensemble(ensemble: Ensemble, x: str | None, y: str | None, ax: Any) -> 
     positions, momenta = ensemble.system._native.names(dimension)
     x, y = x or positions[0], y or momenta[0]
     parts = ensemble.section if ensemble.section is not None else [ensemble.end]
+    count = sum(len(states) for states in parts)
+    style = {"linestyle": "none", "marker": ".", "markersize": 3 if count < 5000 else 1, "markeredgewidth": 0}
     for states in parts:
-        ax.plot(ensemble.coordinate(x, states), ensemble.coordinate(y, states), ",", color=None if len(parts) > 1 else "black")
+        ax.plot(ensemble.coordinate(x, states), ensemble.coordinate(y, states), color=None if len(parts) > 1 else "black", **style)
     ax.set(xlabel=x, ylabel=y)
     return ax
 

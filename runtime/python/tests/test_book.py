@@ -1,11 +1,14 @@
-"""The chapter on Python of the book: its blocks of code run, one after the other."""
+"""The chapter on Python of the book: its blocks of code run, one after the other. The notebooks are committed without results."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
 
 BOOK = Path(__file__).parents[3] / "docs" / "src" / "guide" / "python.md"
+
+NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 
 #: Packages without which a block is left out.
 OPTIONAL = {"jax", "rebound"}
@@ -26,3 +29,13 @@ def test_the_code_of_the_book_runs(tmp_path, monkeypatch):
                 raise
         count += 1
     assert count >= 15
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
+def test_notebooks_have_code_that_compiles_and_no_results(path):
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    assert 8 <= len(cells) <= 25 and cells[0]["cell_type"] == "markdown"
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            compile("".join(cell["source"]), f"{path.name}, {cell['id']}", "exec")
+            assert cell["outputs"] == [] and cell["execution_count"] is None
