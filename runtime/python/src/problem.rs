@@ -503,10 +503,16 @@ fn values(
             }
         };
         if dimensions.len() != lengths.len() {
+            let shape = |dimensions: usize| match dimensions {
+                0 => "one number",
+                1 => "a list",
+                2 => "a list of lists",
+                _ => "an array of more dimensions",
+            };
             return Err(errors::argument(format!(
-                "`{name}` has {} dimensions; it needs {}",
-                dimensions.len(),
-                lengths.len()
+                "`{name}` is {}; the formula needs {} (values that vary between trajectories are for ensembles, with one axis more)",
+                shape(dimensions.len()),
+                shape(lengths.len())
             )));
         }
         for (length, &found) in lengths.iter().zip(dimensions) {

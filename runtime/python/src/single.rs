@@ -313,6 +313,8 @@ pub(crate) fn integrate<'py>(
         (last.t[0], last.q.into_pyarray(py), last.p.into_pyarray(py)),
     )?;
     found.set_item("statistics", statistics(py, &counts)?)?;
+    // Whether an event ended it.
+    found.set_item("ended", outcome.is_ok() && state.time != end)?;
     let error = outcome.err().filter(|_| interrupted.is_none());
     found.set_item(
         "error",

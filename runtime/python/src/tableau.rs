@@ -8,7 +8,8 @@ use symplectic_cli::output::{Format, write};
 use symplectic_compiler::export::toml;
 use symplectic_compiler::stability::StableSteps;
 use symplectic_compiler::{
-    Definition, Key, Limits, Requirement, Tableau as Exact, catalogue, check, did_you_mean,
+    Definition, Evidence, Key, Limits, Property, Requirement, SeparableProperties,
+    Tableau as Exact, catalogue, check, did_you_mean,
 };
 use symplectic_tools::{SteppedClass, Stepper, certificate};
 
@@ -21,6 +22,15 @@ pub(crate) struct Tableau(pub(crate) Arc<Exact>);
 
 /// Lists and matrices of a tableau, by name.
 type Coefficients<T> = [(&'static str, Vec<Vec<T>>); 6];
+
+/// A property with its evidence.
+type Statement = (
+    &'static str,
+    bool,
+    &'static str,
+    Option<u32>,
+    Option<String>,
+);
 
 fn limits(max_stages: Option<usize>) -> Limits {
     let at_most = |stages: usize| Limits::at_most(u16::try_from(stages).unwrap_or(u16::MAX));
@@ -211,6 +221,30 @@ impl Tableau {
         let read = Requirement::parse(requirement).map_err(|error| errors::definition(&error))?;
         py.detach(|| self.0.require(&read, accepted_bits))
             .map_err(|kind| errors::proof(&kind.to_string(), requirement))
+    }
+
+    /// What holds for separable H: name, whether it holds, evidence, binary places of a verification, witness.
+    fn separable_properties(&self, py: Python<'_>) -> Vec<Statement> {
+        let found = py.detach(|| self.0.separable_properties());
+        let statement = |(name, property): (&'static str, &Property)| {
+            let (evidence, bits) = match property.evidence {
+                Evidence::Proved => ("proved", None),
+                Evidence::Refuted => ("refuted", None),
+                Evidence::Certified => ("certified", None),
+                Evidence::Verified { bits } => ("verified", Some(bits)),
+                Evidence::Undecided { bits } => ("undecided", Some(bits)),
+            };
+            (
+                name,
+                property.holds,
+                evidence,
+                bits,
+                property.witness.clone(),
+            )
+        };
+        let names = SeparableProperties::NAMES.into_iter();
+        let all = names.filter_map(|name| Some((name, found.get(name)?)));
+        all.map(statement).collect()
     }
 
     /// Forces per step of a method that is explicit for separable H.

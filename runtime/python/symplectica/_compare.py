@@ -144,10 +144,12 @@ def compare(
         for step in sizes:
             seconds, run = [], None
             try:
-                for _ in range(repeats):
+                # The first run derives the method and fills caches.
+                for number in range(repeats + 1):
                     before = time.perf_counter()
                     run = system.integrate(q, p, step=float(step), method=made, output=0, **start)
-                    seconds.append(time.perf_counter() - before)
+                    if number > 0:
+                        seconds.append(time.perf_counter() - before)
             except StepError:
                 found.append(Measurement(name, float(step), float("inf"), float("inf"), float("nan"), 0))
                 continue

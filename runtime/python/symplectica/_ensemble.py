@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ._arrays import Array
 from ._errors import ArgumentError
 from ._events import States
+from ._files import save
 from ._tableau import Doubles, Tableau
 
 if TYPE_CHECKING:
@@ -174,17 +175,21 @@ class Ensemble:
         return table
 
     def save(self, path: str | Path) -> None:
-        """Writes the arrays, the formula and the method to a file for NumPy (``.npz``), or the table to Parquet (``.parquet``, with pandas)."""
-        if str(path).endswith(".parquet"):
-            self.to_pandas().to_parquet(path)
-            return
-        more: dict[str, Any] = {} if self.megno is None else {"megno": self.megno, "lyapunov": self.lyapunov}
+        """Writes the arrays, the formula and the method to a file.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in ``.npz`` (NumPy), ``.h5`` (HDF5, with h5py), ``.parquet`` or ``.csv`` (a table, with pandas).
+        """
+        arrays: dict[str, Any] = {"t": self.t, "q": self.q, "p": self.p, "failed": self.failed}
+        if self.megno is not None and self.lyapunov is not None:
+            arrays |= {"megno": self.megno, "lyapunov": self.lyapunov}
         if self.section is not None:
-            more["section_count"] = np.array([len(states) for states in self.section])
+            arrays["section_count"] = np.array([len(states) for states in self.section])
             for key in ("t", "q", "p"):
-                more[f"section_{key}"] = np.concatenate([getattr(states, key) for states in self.section])
-        facts: dict[str, Any] = {"formula": self.system.text, "method": self.method.name or "", "step": self.step}
-        np.savez(path, t=self.t, q=self.q, p=self.p, failed=self.failed, **facts, **more)
+                arrays[f"section_{key}"] = np.concatenate([getattr(states, key) for states in self.section])
+        save(path, arrays, {"formula": self.system.text, "method": self.method.name or "", "step": self.step}, self.to_pandas)
 
     def plot(self, x: str | None = None, y: str | None = None, ax: Any = None) -> Any:
         """A picture with matplotlib: the section, or the last states, in the plane of two coordinates.

@@ -85,15 +85,16 @@ class States:
 
 
 class Events(Mapping[Any, States]):
-    """The states at events: by name if the events have names, otherwise by number."""
+    """The states at events: by name if the events have names, otherwise by number; in both cases also by expression."""
 
-    def __init__(self, names: list[Any], found: list[States]) -> None:
-        self._names, self._found = names, found
+    def __init__(self, names: list[Any], found: list[States], texts: list[str]) -> None:
+        self._names, self._found, self._texts = names, found, texts
 
     def __getitem__(self, name: Any) -> States:
-        if name in self._names:
-            return self._found[self._names.index(name)]
-        raise KeyError(name)
+        for known in (self._names, self._texts):
+            if name in known:
+                return self._found[known.index(name)]
+        raise KeyError(f"there is no event {name!r}; the events are {', '.join(map(repr, self._names)) or 'none'}")
 
     def __iter__(self) -> Any:
         return iter(self._names)

@@ -29,7 +29,7 @@ def words(value: Exact, key: str) -> str:
     if isinstance(value, float):
         return _of_float(value, key)
     if hasattr(value, "free_symbols") or type(value).__module__.startswith("sympy"):
-        return str(value).replace("**", "^")
+        return _of_sympy(value)
     if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
         return words(value.item(), key)
     if isinstance(value, Iterable):
@@ -37,6 +37,22 @@ def words(value: Exact, key: str) -> str:
     raise ArgumentError(
         f"`{key}`: found {type(value).__name__}, expected a number, a text such as '1/2 - sqrt(3)/6', or a list of them"
     )
+
+
+def _of_sympy(value: Any) -> str:
+    """The text of a SymPy constant; roots of degree 3 have a function of their own."""
+    from sympy import Pow, Rational
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):  # type: ignore[misc]
+        def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+            base, exponent = expr.as_base_exp()
+            if isinstance(exponent, Rational) and exponent.q == 3:
+                root = f"cbrt({self._print(base)})"
+                return root if exponent.p == 1 else f"({root})^({exponent.p})" if exponent.p > 0 else f"1/({self._print(Pow(base, -exponent))})"
+            return str(super()._print_Pow(expr, rational))
+
+    return str(Printer().doprint(value)).replace("**", "^")
 
 
 def unbracketed(text: str) -> str:
@@ -58,10 +74,10 @@ def _of_float(value: float, key: str) -> str:
     exact = Fraction(value) if value == value and abs(value) != float("inf") else None
     if exact is not None and exact.denominator <= _DYADIC:
         return str(exact)
-    near = Fraction(value).limit_denominator(10_000) if exact is not None else None
-    hint = f"write '{near}' or Fraction({near.numerator}, {near.denominator})" if near is not None and float(near) == value else (
-        "write an exact number: a text such as '1/2 - sqrt(3)/6', a Fraction; printed digits are texts, with `claim`"
-    )
+    near = Fraction(value).limit_denominator(1000) if exact is not None else None
+    hint = "write an exact number: a text such as '1/2 - sqrt(3)/6', a Fraction; printed digits are texts, with the `claim` or `order` that they have"
+    if near is not None and float(near) == value and len(repr(value)) > 12:
+        hint = f"write '{near}' or Fraction({near.numerator}, {near.denominator})"
     raise ArgumentError(f"`{key}` contains the float {value!r}, and nothing can be proved about a rounded number: {hint}")
 
 

@@ -1,13 +1,37 @@
-"""Runs from a file, as by ``symplectic run``."""
+"""Files of results, and runs from a file as by ``symplectic run``."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from . import _arrays
 from ._errors import ArgumentError
+
+
+def save(path: str | Path, arrays: Mapping[str, Any], facts: Mapping[str, Any], table: Callable[[], Any]) -> None:
+    """Writes arrays with facts about them to a file, or the table to a file of a table."""
+    suffix = Path(path).suffix
+    if suffix == ".npz":
+        np.savez(path, **arrays, **facts)
+    elif suffix in (".h5", ".hdf5"):
+        import h5py
+
+        with h5py.File(path, "w") as file:
+            for name, array in arrays.items():
+                file[name] = array
+            file.attrs.update(facts)
+    elif suffix == ".parquet":
+        table().to_parquet(path)
+    elif suffix == ".csv":
+        table().to_csv(path, index=False)
+    else:
+        raise ArgumentError(f"the name of the file `{path}` must end in .npz, .h5, .parquet or .csv")
 
 
 def run_file(path: str | Path, *, threads: int | None = None, shard: tuple[int, int] | None = None, resume: bool = False) -> str:

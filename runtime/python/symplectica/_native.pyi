@@ -225,6 +225,10 @@ class Tableau:
         """
         Decides a requirement such as `symplectic` or `order(separable) == 4`.
         """
+    def separable_properties(self, /) -> list[tuple[str, bool, str, int | None, str | None]]:
+        """
+        What holds for separable H: name, whether it holds, evidence, binary places of a verification, witness.
+        """
     @property
     def source(self, /) -> str | None:
         """

@@ -4,25 +4,35 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
 from typing import Any
 
 from ._errors import ArgumentError
 
 
-def shown(progress: Any, length: float, trajectories: int | None) -> Callable[[float, int], None] | None:
-    """The function that the library calls with the elapsed time of a trajectory and the number of finished ones."""
-    if progress is False or progress is None:
-        return None
-    show = progress if callable(progress) else _Bar() if progress is True else None
-    if show is None:
-        raise ArgumentError(f"`progress` must be True, False or a function of the fraction, found {type(progress).__name__}")
+class Progress:
+    """What a run calls with the elapsed time of a trajectory and the number of finished ones."""
 
-    def call(elapsed: float, finished: int) -> None:
-        done = finished / trajectories if trajectories else elapsed / abs(length) if length else 1.0
-        show(min(max(done, 0.0), 1.0))
+    def __init__(self, progress: Any, length: float, trajectories: int | None) -> None:
+        self._length, self._trajectories = length, trajectories
+        self._bar = _Bar() if progress is True else None
+        self._show: Any = progress if self._bar is None else self._bar
+        if not callable(self._show):
+            raise ArgumentError(f"`progress` must be True, False or a function of the fraction, found {type(progress).__name__}")
 
-    return call
+    def __call__(self, elapsed: float, finished: int) -> None:
+        done = finished / self._trajectories if self._trajectories else elapsed / abs(self._length) if self._length else 1.0
+        self._show(min(max(done, 0.0), 1.0))
+
+    def end(self) -> None:
+        """The run has reached its end."""
+        self._show(1.0)
+        if self._bar is not None:
+            self._bar.end()
+
+
+def shown(progress: Any, length: float, trajectories: int | None) -> Progress | None:
+    """What a run calls, if it shows its progress."""
+    return None if progress is False or progress is None else Progress(progress, length, trajectories)
 
 
 class _Bar:
@@ -38,6 +48,12 @@ class _Bar:
         full = int(width * fraction)
         bar = "█" * full + "░" * (width - full)
         sys.stderr.write(f"\r{100 * fraction:3.0f} % {bar} {_duration(elapsed)}{left}   ")
+        sys.stderr.flush()
+
+
+    def end(self) -> None:
+        """Goes on to the next line."""
+        sys.stderr.write("\n")
         sys.stderr.flush()
 
 

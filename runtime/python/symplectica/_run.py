@@ -12,6 +12,7 @@ import numpy as np
 from ._arrays import Array
 from ._errors import ArgumentError
 from ._events import Events, States
+from ._files import save
 from ._tableau import Doubles, Tableau
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ class Run:
     _setting: dict[str, Any] = field(repr=False, default_factory=dict)
 
     @classmethod
-    def _of(cls, system: System, method: Any, q0: Array, p0: Array, start: float, setting: dict[str, Any], names: list[Any], found: dict[str, Any]) -> Run:
+    def _of(cls, system: System, method: Any, q0: Array, p0: Array, start: float, setting: dict[str, Any], names: list[Any], texts: list[str], found: dict[str, Any]) -> Run:
         shape = q0.shape
 
         def shaped(rows: Array) -> Array:
@@ -71,7 +72,10 @@ class Run:
         rows = found["t"], shaped(found["q"]), shaped(found["p"])
         if len(rows[0]) == 0:
             rows = np.array([time]), state[1][None], state[2][None]
-        return cls(*rows, state, Events(names, events), found["statistics"], system, method, setting["step"], (start, q0, p0), setting)
+        elif found["ended"] and rows[0][-1] != time:
+            # An event ended the run: its state is the last one.
+            rows = np.append(rows[0], time), np.append(rows[1], state[1][None], axis=0), np.append(rows[2], state[2][None], axis=0)
+        return cls(*rows, state, Events(names, events, texts), found["statistics"], system, method, setting["step"], (start, q0, p0), setting)
 
     @property
     def dimension(self) -> int:
@@ -94,14 +98,26 @@ class Run:
         return energies
 
     @cached_property
+    def _energy_of_start(self) -> tuple[float, float]:
+        """H at the start, and what its errors are relative to."""
+        time, q, p = self.start
+        rows = np.array([time]), q.reshape(1, -1), p.reshape(1, -1), np.empty((1, 0))
+        return float(self._problem.energies(*rows)[0]), self._problem.energy_unit(time, q.ravel().tolist(), p.ravel().tolist(), [])
+
+    @property
+    def _last_energy_error(self) -> float:
+        time, q, p = self.state
+        first, unit = self._energy_of_start
+        last = self._problem.energies(np.array([time]), np.ascontiguousarray(q.reshape(1, -1)), np.ascontiguousarray(p.reshape(1, -1)), np.empty((1, 0)))
+        return (float(last[0]) - first) / unit
+
+    @cached_property
     def energy_error(self) -> Array:
         """(H − H₀)/\\|H₀\\| at the times; relative to the terms of H if H₀ is nothing but rounding.
 
         With a force, friction or a time in H it is the change of the energy, not an error.
         """
-        time, q, p = self.start
-        unit = self._problem.energy_unit(time, q.ravel().tolist(), p.ravel().tolist(), [])
-        first = self._problem.energies(np.array([time]), q.reshape(1, -1), p.reshape(1, -1), np.empty((1, 0)))[0]
+        first, unit = self._energy_of_start
         return np.asarray((self.energy - first) / unit)
 
     @cached_property
@@ -173,9 +189,16 @@ class Run:
         return table
 
     def save(self, path: str | Path) -> None:
-        """Writes ``t``, ``q``, ``p``, the energy error, the formula and the method to a file for NumPy (``.npz``)."""
-        name = self.method.name or ""
-        np.savez(path, t=self.t, q=self.q, p=self.p, energy_error=self.energy_error, formula=self.system.text, method=name, step=self.step)
+        """Writes ``t``, ``q``, ``p``, the energy error, the formula and the method to a file.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in ``.npz`` (NumPy), ``.h5`` (HDF5, with h5py), ``.parquet`` or ``.csv`` (a table, with pandas).
+        """
+        arrays = {"t": self.t, "q": self.q, "p": self.p, "energy_error": self.energy_error}
+        facts = {"formula": self.system.text, "method": self.method.name or "", "step": self.step}
+        save(path, arrays, facts, self.to_pandas)
 
     def plot(self, kind: str | None = None, ax: Any = None) -> Any:
         """A picture with matplotlib.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 #: A method: a name, a tableau, a definition.
 Method = str | Tableau | Doubles | Mapping[str, Any] | Any
+
+#: The |energy error| above which a run warns, as `symplectic run` does.
+_LARGE = 0.01
 
 #: Rows of a run without `output`.
 _ROWS = 1001
@@ -135,8 +139,28 @@ class System:
         return self._native.describe(format)
 
     def __repr__(self) -> str:
-        values = ", ".join(f"{name}={value!r}" for name, value in self.parameters.items())
-        return f"<System {self.name}{': ' if self.name else ''}H = {self.hamiltonian}{'; ' if values else ''}{values}>"
+        values = ", ".join(f"{name}={value!r}" if np.ndim(value) == 0 else f"{name}: {value.shape}" for name, value in self.parameters.items())
+        name = "" if self.name == "System" else f" {self.name}:"
+        return f"<System{name} H = {self.hamiltonian}{'; ' if values else ''}{values}>"
+
+    def to_sympy(self) -> dict[str, Any]:
+        """H, the coordinates and the parameters as SymPy expressions and symbols, for formulas with a fixed number of coordinates.
+
+        Returns
+        -------
+        dict
+            ``H``; ``q``, ``p``: lists of symbols; ``t``: the time; ``parameters``: symbols by name; ``values``: their values.
+
+        Examples
+        --------
+        >>> import symplectica as sy
+        >>> found = sy.system("q: [x], p: [px]; H = px^2/2 + x^4/4").to_sympy()
+        >>> found["H"].diff(found["q"][0])
+        x**3
+        """
+        from ._sympy import expression_of
+
+        return expression_of(self)
 
     def _repr_latex_(self) -> str:
         return f"$$H = {self._native.hamiltonian(True)}$$"
@@ -185,10 +209,17 @@ class System:
             raise ArgumentError(f"`q` has the shape {q.shape} and `{key}` the shape {other.shape}: they must be the same")
         if q.size == 0:
             raise ArgumentError("`q` is empty: give at least one coordinate")
+        self._check_shape(q.shape)
         if v is not None:
             problem = self._problem(q.size, start, parameters, {})
             other = np.array(problem.momentum(start, q.ravel().tolist(), other.ravel().tolist(), [])).reshape(q.shape)
         return q, other
+
+    def _check_shape(self, shape: tuple[int, ...]) -> None:
+        """Positions that are vectors are rows, or one list."""
+        components = self._native.layout[1]
+        if components > 1 and len(shape) > 1 and shape[-1] != components:
+            raise ArgumentError(f"`q` has the shape {shape}; its rows must have {components} components, as the formula says")
 
     def momentum(self, q: npt.ArrayLike, v: npt.ArrayLike, *, t: float = 0.0, parameters: Mapping[str, Any] | None = None) -> Array:
         """The momenta of velocities; H must be quadratic in the momenta.
@@ -293,7 +324,7 @@ class System:
         >>> run = kepler.integrate([0.4, 0], [0, 2], t=100, step=0.05, method="gauss-8")
         >>> bool(abs(run.energy_error).max() < 1e-13)
         True
-        >>> run.q[-1].shape, run.t[-1]
+        >>> run.q.shape[1:], float(run.t[-1])
         ((2,), 100.0)
         """
         from ._run import Run
@@ -305,6 +336,7 @@ class System:
         made = method_of(method if method is not None else self._default())
         setting = self._setting(step, end - start, solver, accept_lower_order, project_starts, halvings, None)
         names, given = events_of(events)
+        bar = shown(progress, end - start, None)
         found = _native.integrate(
             problem,
             stepping(made, self._constraints),
@@ -316,14 +348,19 @@ class System:
             end,
             self._output(output, start, end),
             given,
-            shown(progress, end - start, None),
+            bar,
         )
-        run = Run._of(self.with_parameters(**values) if values else self, made, q0, p0, start, setting, names, found)
+        texts = [event[0] for event in given]
+        run = Run._of(self.with_parameters(**values) if values else self, made, q0, p0, start, setting, names, texts, found)
         if (signal := found["interrupted"]) is not None:
             raise _interrupted(signal, run) from None
         if (error := found["error"]) is not None:
             error.run = run
             raise error
+        if bar is not None:
+            bar.end()
+        if problem.energy_is_conserved and not abs(error := run._last_energy_error) < _LARGE:
+            warnings.warn(f"the energy error at the end is {error:.1e}: take a smaller step or another method", stacklevel=2)
         return run
 
     @property
@@ -439,6 +476,7 @@ class System:
         if trajectories > q0.shape[0]:
             q0, p0 = (np.repeat(half, trajectories, axis=0) for half in (q0, p0))
         shape = q0.shape[1:]
+        self._check_shape(shape)
         dimension = int(np.prod(shape))
         if q0.size == 0:
             raise ArgumentError("there are no starts: give at least one")
@@ -459,11 +497,15 @@ class System:
         bar = shown(progress, end - start, trajectories)
         names: list[str] = []
         if section is not None:
+            if not isinstance(section, (Event, str)):
+                raise ArgumentError(f"`section` must be an expression in text or an `Event`, found {type(section).__name__}")
             names, given = events_of(section, direction="rising")
             found = _native.section(*base, end, given, bar)
         elif megno:
             found = _native.chaos(*base, _displacements(qs, ps, self.is_separable and steps.is_explicit), end, bar)
         else:
+            if isinstance(output, (int, np.integer)):
+                raise ArgumentError("`output` of an ensemble is a list of times, such as numpy.linspace(0, 10, 101)")
             times = [] if output is None else _times(output, start, end)
             self._warn_of_times(times, start, setting["step"], steps)
             found = _native.ensemble(*base, end, times, bar)
@@ -472,6 +514,8 @@ class System:
         result = Ensemble._of(self, made, shape, start, setting, base, names, same, varied, found)
         if (signal := found["interrupted"]) is not None:
             raise _interrupted(signal, result) from None
+        if bar is not None:
+            bar.end()
         return result
 
     def _varied_length(self, parameters: Mapping[str, Array]) -> int:
@@ -495,10 +539,11 @@ class System:
     def state_transition(
         self,
         q: npt.ArrayLike,
-        p: npt.ArrayLike,
+        p: npt.ArrayLike | None = None,
         *,
         t: float,
         step: float,
+        v: npt.ArrayLike | None = None,
         t0: float = 0.0,
         method: Method | None = None,
         parameters: Mapping[str, Any] | None = None,
@@ -526,7 +571,7 @@ class System:
         """
         values = _arrays.named(parameters)
         start, end = _arrays.number(t0, "t0"), _arrays.number(t, "t")
-        q0, p0 = self._halves(q, p, None, start, values)
+        q0, p0 = self._halves(q, p, v, start, values)
         dimension = q0.size
         problem = self._problem(dimension, start, values, {})
         setting = self._setting(step, end - start, solver, accept_lower_order, False, 0, threads)
@@ -550,7 +595,8 @@ class System:
         self,
         *names: str,
         q: npt.ArrayLike,
-        p: npt.ArrayLike,
+        p: npt.ArrayLike | None = None,
+        v: npt.ArrayLike | None = None,
         t: float,
         step: float,
         t0: float = 0.0,
@@ -566,7 +612,7 @@ class System:
         ----------
         *names : str
             Names of parameters with values; all of them if none is given.
-        q, p, t, step, t0, method, parameters, threads, solver, accept_lower_order
+        q, p, v, t, step, t0, method, parameters, threads, solver, accept_lower_order
             See :meth:`integrate`.
 
         Returns
@@ -583,14 +629,16 @@ class System:
         >>> bool(abs(found["k"][0] + np.sin(1) / 2) < 1e-12)
         True
         """
-        values = {**self._parameters, **{name: _arrays.numbers(value, name) for name, value in _arrays.named(parameters).items()}}
+        defaults = {name: np.asarray(float(Fraction(default))) for name, _, default in self._native.parameters if default is not None}
+        given = {name: _arrays.numbers(value, name) for name, value in _arrays.named(parameters).items()}
+        values: dict[str, Array] = {**defaults, **self._parameters, **given}
         chosen = names or tuple(values)
         for name in chosen:
             if name not in values:
                 known = ", ".join(values) or "none"
                 raise ArgumentError(f"there is no parameter `{name}` with a value; known here: {known}")
         start, end = _arrays.number(t0, "t0"), _arrays.number(t, "t")
-        q0, p0 = self._halves(q, p, None, start, values)
+        q0, p0 = self._halves(q, p, v, start, values)
         dimension, further = q0.size, sum(values[name].size for name in chosen)
         if further == 0:
             return {}
@@ -630,6 +678,7 @@ class System:
         *,
         t: float,
         steps: npt.ArrayLike,
+        v: npt.ArrayLike | None = None,
         t0: float = 0.0,
         parameters: Mapping[str, Any] | None = None,
         reference: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
@@ -654,6 +703,8 @@ class System:
         """
         from ._compare import compare
 
+        if q is not None and v is not None:
+            q, p = self._halves(q, p, v, _arrays.number(t0, "t0"), _arrays.named(parameters))
         return compare(self, methods, q, p, t=t, steps=steps, t0=t0, parameters=parameters, reference=reference, repeats=repeats)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -14,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _native
-from ._errors import ArgumentError
+from ._errors import ArgumentError, DefinitionError
 from ._exact import Exact, fraction, to_sympy, unbracketed, words
 from ._paths import read_text
 
@@ -317,9 +319,12 @@ class Tableau:
 
     @cached_property
     def properties(self) -> Properties:
-        """What is proved or refuted: symplectic, symmetric, explicit, stiffly_accurate, …"""
-        found = self._facts["properties"]
-        return Properties({name: Property(**entry) for name, entry in found.items()})
+        """What is proved or refuted: ``symplectic``, ``symmetric``, ``explicit``, ``stiffly_accurate``, …, and for separable H alone
+        ``symplectic(separable)``, ``symmetric(separable)``."""
+        found = {name: Property(**entry) for name, entry in self._facts["properties"].items()}
+        for name, holds, evidence, bits, witness in self._native.separable_properties():
+            found[f"{name}(separable)"] = Property(holds, evidence, bits, witness)
+        return Properties(found)
 
     @cached_property
     def orders(self) -> dict[str, Order]:
@@ -476,12 +481,16 @@ class Tableau:
     def __str__(self) -> str:
         return self.to("text")
 
-    def _repr_latex_(self) -> str:
-        text = self.to("latex")
-        lines = text[text.index("\\begin{array}") : text.index("\\end{array}")].splitlines()
-        rules = ("\\toprule", "\\bottomrule")
-        lines = [line.replace("\\midrule", "\\hline").replace("@{\\quad}", "|") for line in lines if line not in rules]
-        return "$$\n" + "\n".join(lines) + "\n\\end{array}\n$$"
+    def _repr_latex_(self) -> str | None:
+        # MathJax knows neither booktabs nor \\multicolumn. Tables that are too wide are lists, which notebooks show as text.
+        arrays = re.findall(r"\\begin\{array\}.*?\\end\{array\}", self.to("latex"), re.DOTALL)
+        if not arrays:
+            return None
+        shown = []
+        for array in arrays:
+            array = re.sub(r"\\(toprule|bottomrule)\n", "", array).replace("\\midrule", "\\hline").replace("@{\\quad}", "|")
+            shown.append(re.sub(r"\\multicolumn\{\d+\}\{c\}\{(.*?)\} \\\\", r"\1 \\\\", array))
+        return "$$\n" + "\n\\qquad\n".join(shown) + "\n$$"
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self.name is not None and _is_known(self):
@@ -597,7 +606,7 @@ def splitting(
 
 
 def composition(
-    base: str,
+    base: str | Tableau,
     weights: Exact,
     *,
     symmetric: bool = False,
@@ -610,8 +619,8 @@ def composition(
 
     Parameters
     ----------
-    base : str
-        A name of the catalogue, or a definition in brackets.
+    base : str or Tableau
+        A name of the catalogue, a definition in brackets, or a derived method.
     weights : str or list
         ``"triple_jump(4)"``, ``"suzuki(4)"``, or exact numbers.
     symmetric, claim, name, require, max_stages : see :func:`splitting`
@@ -622,7 +631,14 @@ def composition(
     >>> sy.composition("velocity-verlet", "triple_jump(4)").order("separable")
     4
     """
+    if isinstance(base, Tableau):
+        base = "[" + ", ".join(f"{key}: {value if key == 'base' or value.startswith('[') else _bracketed(value)}" for key, value in base.definition.items()) + "]"
     return tableau(base=base, weights=weights, symmetric=symmetric, claim=claim, name=name, require=require, max_stages=max_stages)
+
+
+def _bracketed(value: str) -> str:
+    """A list as a definition in brackets has it."""
+    return f"[{value}]" if "," in re.sub(r"\([^()]*\)", "", value) else value
 
 
 @dataclass(frozen=True)
@@ -649,6 +665,11 @@ class Entry:
         return _of_catalogue(self.name)
 
 
+@lru_cache(maxsize=1)
+def _known() -> dict[str, Entry]:
+    return {entry[0]: Entry(*entry) for entry in _native.catalogue()}
+
+
 def catalogue() -> dict[str, Entry]:
     """The known methods by name.
 
@@ -660,17 +681,21 @@ def catalogue() -> dict[str, Entry]:
     >>> sy.catalogue()["ruth-1983"].tableau.order("separable")
     3
     """
-    return {entry[0]: Entry(*entry) for entry in _native.catalogue()}
+    return dict(_known())
 
 
 @lru_cache(maxsize=256)
 def _of_catalogue(name: str) -> Tableau:
+    if name not in _known():
+        near = get_close_matches(name, _known(), 3, 0.5)
+        hint = f"did you mean {' or '.join(f'`{one}`' for one in near)}? " if near else ""
+        raise DefinitionError(f"unknown method `{name}`; {hint}all names are in `symplectica.catalogue()`", reason=f"unknown method `{name}`", input="method", text=name)
     return Tableau(_native.Tableau.of_catalogue(name))
 
 
 def _is_known(made: Tableau) -> bool:
     """Whether a tableau is the method of the catalogue that has its name."""
-    known = catalogue().get(made.name or "")
+    known = _known().get(made.name or "")
     return known is not None and known.tableau == made
 
 
@@ -720,7 +745,7 @@ class Doubles:
                 raise ArgumentError(f"`{key}` has {array.ndim} dimensions; it needs {dimensions}")
         self.name, self._order = str(name), _arrays.count(order, "order", 0, 1000)
         self._native = _native.Method.of_doubles(
-            name, self.a.tolist(), self.a_tilde.tolist(), self.b.tolist(), self.b_tilde.tolist(), [self._order] * 3
+            self.name, self.a.tolist(), self.a_tilde.tolist(), self.b.tolist(), self.b_tilde.tolist(), [self._order] * 3
         )
 
     def order(self, kind: str = "general") -> int:
@@ -757,7 +782,7 @@ def method(given: str | Path | Mapping[str, Exact] | Tableau | Doubles | Any) ->
     >>> sy.method("gaus-8")
     Traceback (most recent call last):
         ...
-    symplectica._errors.DefinitionError: unknown method `gaus-8`; ...
+    symplectica._errors.DefinitionError: unknown method `gaus-8`; did you mean `gauss-8`...
     """
     if isinstance(given, (Tableau, Doubles)):
         return given

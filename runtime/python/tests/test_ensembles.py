@@ -121,7 +121,7 @@ def test_wrong_ensembles_are_refused(pendulum):
         ({"threads": 0}, "whole number"),
         ({"threads": 1000}, "256"),
         ({"section": "b"}, "unknown name"),
-        ({"parameters": {"g": np.ones((3, 2))}}, "dimensions"),
+        ({"parameters": {"g": np.ones((3, 2))}}, "is a list of lists"),
     ]:
         with pytest.raises((sy.ArgumentError, sy.DefinitionError), match=message):
             pendulum.ensemble(q, p, t=1, step=0.1, **arguments)

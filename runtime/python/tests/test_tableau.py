@@ -51,6 +51,8 @@ def test_properties_have_evidence_and_witnesses():
     assert not properties.explicit and "Q1" in properties.explicit.witness
     with pytest.raises(AttributeError):
         _ = properties.explicitly
+    verlet = sy.method("velocity-verlet").properties
+    assert not verlet["symplectic"] and verlet["symplectic(separable)"].evidence == "proved"
 
 
 def test_requirements_are_proved_or_raise_the_witness():
@@ -77,7 +79,7 @@ def test_exact_numbers_of_every_kind_are_the_same():
 def test_a_float_that_is_rounded_is_refused_with_the_fraction():
     with pytest.raises(sy.ArgumentError, match=r"7/24"):
         sy.splitting(kick=[7 / 24, 3 / 4, -1 / 24], drift=[2 / 3, -2 / 3, 1])
-    with pytest.raises(sy.ArgumentError, match="texts, with `claim`"):
+    with pytest.raises(sy.ArgumentError, match="printed digits are texts, with the `claim`"):
         sy.splitting(kick=[0.1234567891234, 1], drift=[1, 0])
     with pytest.raises(sy.ArgumentError):
         sy.splitting(kick=[float("nan"), 1], drift=[1, 0])
@@ -92,7 +94,7 @@ def test_wrong_definitions_have_their_place():
     assert pickle.loads(pickle.dumps(error)).span == (5, 6)
     with pytest.raises(sy.ArgumentError, match="did you mean `nodes`"):
         sy.tableau(basis="polynomial(2)", node="gauss(2)")
-    with pytest.raises(sy.DefinitionError, match="gauss-8"):
+    with pytest.raises(sy.DefinitionError, match="did you mean `gauss-8`"):
         sy.method("gaus-8")
 
 
@@ -121,7 +123,11 @@ def test_exports_are_those_of_the_command_line():
 
 def test_notebooks_see_an_array_that_mathjax_can_set():
     text = sy.method("lobatto-3")._repr_latex_()
-    assert text.startswith("$$") and "\\toprule" not in text and "\\hline" in text
+    assert text is not None and text.count("\\begin{array}") == 2 and "\\tilde a" in text
+    assert not any(word in text for word in ("toprule", "multicolumn", "quad}"))
+    assert text.count("{") == text.count("}")
+    # A table that is too wide is shown as text.
+    assert sy.method("gauss-8")._repr_latex_() is None
 
 
 def test_tableaux_pickle_copy_and_compare():
@@ -178,6 +184,21 @@ def test_refine_proves_digits_and_refuses_wrong_ones():
         sy.refine(["0.2916667", "3/4", "-0.0416667"], ["0.6666667", "-0.6766667", "1"], order=3)
     with pytest.raises(sy.ArgumentError, match="order"):
         sy.refine(["1"], ["1"])
+
+
+def test_compositions_take_derived_methods():
+    for name in ("velocity-verlet", "gauss-1", "lobatto-2"):
+        made = sy.composition(sy.method(name), "triple_jump(4)")
+        assert made == sy.composition(name, "triple_jump(4)") and made.order("separable") == 4
+    ours = sy.splitting(kick=["1/2", "1/2"], drift=["1", "0"])
+    assert sy.composition(ours, ["1/2", "1/2"]).order("separable") == 2
+
+
+def test_roots_of_sympy_are_exact():
+    sympy = pytest.importorskip("sympy")
+    w = 1 / (2 - sympy.cbrt(2))
+    made = sy.composition("velocity-verlet", [w, 1 - 2 * w, w])
+    assert made == sy.composition("velocity-verlet", "triple_jump(4)")
 
 
 def test_catalogue_has_titles_sources_and_tableaux():
