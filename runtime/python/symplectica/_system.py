@@ -359,7 +359,8 @@ class System:
             raise error
         if bar is not None:
             bar.end()
-        if problem.energy_is_conserved and not abs(error := run._last_energy_error) < _LARGE:
+        changes = any(event[4] for event in given)
+        if problem.energy_is_conserved and not changes and not abs(error := run._last_energy_error) < _LARGE:
             warnings.warn(f"the energy error at the end is {error:.1e}: take a smaller step or another method", stacklevel=2)
         return run
 
