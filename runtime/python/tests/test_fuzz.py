@@ -4,6 +4,7 @@ import os
 import random
 
 import numpy as np
+import pytest
 
 import symplectica as sy
 
@@ -121,6 +122,7 @@ def others(chance: random.Random) -> object:
     )()
 
 
+@pytest.mark.filterwarnings("ignore")
 def test_random_calls_end_with_a_result_or_an_error_of_the_package():
     chance = random.Random(7)
     kinds = [tableau, formula, formula, run, run, ensemble, others]
