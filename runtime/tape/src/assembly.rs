@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::inputs::Load;
 use crate::operation::Code;
-use crate::tape::{Input, Load, Register, Step, Tape, Write};
+use crate::tape::{Input, Operand, Register, Step, Tape, Write};
 use crate::unroll::{MAX_OPERATIONS, Number, Refusal, Value};
 
 /// Length of the shortest row whose block has room for full chunks.
@@ -70,10 +71,17 @@ pub(crate) struct Assembly<'a> {
     /// Register and block of each value.
     places: HashMap<Number, (Register, usize)>,
     blocks: Vec<Block>,
+    loads: Vec<Load>,
     /// Free blocks by their length.
     free: BTreeMap<usize, Vec<Register>>,
     tape: Tape,
 }
+
+/// Operations of one kind.
+type Group = (Code, Vec<Number>);
+
+/// The group, the operand, and the place in the group of an operation that reads a value.
+type Reader = (usize, usize, usize);
 
 /// Successive registers.
 struct Block {
@@ -92,6 +100,7 @@ impl<'a> Assembly<'a> {
             left: uses,
             places: HashMap::new(),
             blocks: Vec::new(),
+            loads: Vec::new(),
             free: BTreeMap::new(),
             tape: Tape::default(),
         }
@@ -99,8 +108,9 @@ impl<'a> Assembly<'a> {
 
     /// The tape.
     pub(crate) fn tape(mut self) -> Result<Tape, Refusal> {
-        self.load()?;
-        for (code, group) in self.groups()? {
+        let (groups, readers) = self.groups()?;
+        self.load(&readers)?;
+        for (code, group) in groups {
             self.compute(code, &group)?;
         }
         self.tape.results = self.results.len();
@@ -124,15 +134,17 @@ impl<'a> Assembly<'a> {
                 })
             })
             .collect();
-        if self.tape.steps.is_empty() {
-            self.copies();
-        }
-        self.tape.is_wide = (self.tape.steps.iter()).any(|step| step.count >= SHORTEST_ROW);
+        self.tape.inputs = match self.tape.steps.is_empty() {
+            true => self.copies().into_iter().collect(),
+            false => self.loads.iter().copied().collect(),
+        };
+        let rows = self.tape.steps.iter().filter(|step| step.row.is_some());
+        self.tape.in_rows = rows.map(|step| step.count as usize).sum();
         Ok(self.tape)
     }
 
-    /// Places the inputs: components of the state that follow each other in rows.
-    fn load(&mut self) -> Result<(), Refusal> {
+    /// Places the inputs: components of the state in their order, and others in the order in which they are read.
+    fn load(&mut self, readers: &[Reader]) -> Result<(), Refusal> {
         let mut inputs: Vec<(Input, Number)> = Vec::new();
         for (number, value) in self.list.iter().enumerate() {
             let input = match *value {
@@ -147,32 +159,38 @@ impl<'a> Assembly<'a> {
                 inputs.push((input, number as Number));
             }
         }
-        inputs.sort_by_key(|(input, _)| match *input {
-            Input::Position(k) => (0, k),
-            Input::Momentum(k) => (1, k),
-            _ => (2, 0),
-        });
-        let mut rest = &inputs[..];
-        while let Some(&(input, _)) = rest.first() {
-            let mut next = (0..).map_while(|k| Some((input.after(k)?, k)));
-            let count = next
-                .find(|&(input, k)| rest.get(k).is_none_or(|(found, _)| *found != input))
-                .map_or(1, |(_, k)| k.max(1));
-            let (row, others) = rest.split_at(count);
-            let numbers: Vec<Number> = row.iter().map(|(_, number)| *number).collect();
-            let into = self.place(&numbers)?;
-            let parts = singles(count).filter_map(|(k, count)| {
-                let (into, input) = (into + k as Register, input.after(k)?);
-                Some(Load { into, count, input })
-            });
-            self.tape.loads.extend(parts);
-            rest = others;
+        let is_of_state = |(input, _): &(Input, Number)| input.component().is_some();
+        let (mut state, mut others): (Vec<_>, Vec<_>) = inputs.into_iter().partition(is_of_state);
+        others.sort_by_key(|(_, number)| readers[*number as usize]);
+        self.add_loads(&others, 1)?;
+        state.sort_by_key(|(input, _)| input.component());
+        let follow = |before: &(Input, _), next: &(Input, _)| before.0.after(1) == Some(next.0);
+        for row in state.chunk_by(follow) {
+            let count = if row.len() < SHORTEST_ROW {
+                1
+            } else {
+                row.len()
+            };
+            self.add_loads(row, count)?;
         }
         Ok(())
     }
 
-    /// The groups in their order, each in the order of its registers.
-    fn groups(&self) -> Result<Vec<(Code, Vec<Number>)>, Refusal> {
+    /// Places inputs in successive registers, `count` at a time.
+    fn add_loads(&mut self, inputs: &[(Input, Number)], count: usize) -> Result<(), Refusal> {
+        let numbers: Vec<Number> = inputs.iter().map(|(_, number)| *number).collect();
+        let start = self.place(&numbers)?;
+        let loads = inputs.iter().enumerate().step_by(count);
+        self.loads.extend(loads.map(|(k, (input, _))| Load {
+            into: start + k as Register,
+            count,
+            input: *input,
+        }));
+        Ok(())
+    }
+
+    /// The groups in their order, each in the order of its registers; and where each value is read first.
+    fn groups(&self) -> Result<(Vec<Group>, Vec<Reader>), Refusal> {
         let mut levels = vec![0_usize; self.list.len()];
         let mut groups: BTreeMap<(usize, Code), Vec<Number>> = BTreeMap::new();
         let mut count = 0;
@@ -193,7 +211,7 @@ impl<'a> Assembly<'a> {
         if count > MAX_OPERATIONS {
             return Err(Refusal::TooLong);
         }
-        let mut groups: Vec<_> = groups
+        let mut groups: Vec<Group> = groups
             .into_iter()
             .map(|((_, code), group)| (code, group))
             .collect();
@@ -213,43 +231,48 @@ impl<'a> Assembly<'a> {
                 }
             }
         }
-        Ok(groups)
+        Ok((groups, readers))
     }
 
-    /// Places a group, and adds its rows to the tape.
+    /// Places a group, and adds it to the tape.
     fn compute(&mut self, code: Code, group: &[Number]) -> Result<(), Refusal> {
-        let operands = group.iter().map(|value| match self.list[*value as usize] {
+        let operands = |value: &Number| match self.list[*value as usize] {
             Value::Step(_, operands) => operands,
             _ => [0; 3],
-        });
-        let operands: Vec<[Number; 3]> = operands.collect();
+        };
+        let operands: Vec<[Number; 3]> = group.iter().map(operands).collect();
         let start = self.place(group)?;
-        let mut last: Option<(Step, [usize; 3])> = None;
-        for (k, numbers) in operands.iter().enumerate() {
-            // Operands that the operation does not need are the first one.
-            let mut read = [(0, 0); 3];
-            for (slot, read) in read.iter_mut().enumerate() {
+        let mut places: Vec<[(Register, usize); 3]> = Vec::new();
+        for numbers in &operands {
+            let mut places_of = [(0, 0); 3];
+            for (slot, place) in places_of.iter_mut().enumerate() {
                 let number = numbers[if slot < code.arity() { slot } else { 0 }];
-                *read = *self.places.get(&number).ok_or(Refusal::Outside)?;
+                *place = *self.places.get(&number).ok_or(Refusal::Outside)?;
             }
-            let (registers, blocks) = (read.map(|read| read.0), read.map(|read| read.1));
-            if let Some((row, of_row)) = &mut last
-                && *of_row == blocks
-                && row.takes(registers)
-            {
-                continue;
-            }
-            let step = Step {
-                code,
-                into: start + k as Register,
-                count: 1,
-                operands: registers,
-                strides: [0; 3],
-            };
-            let before = last.replace((step, blocks));
-            self.tape.steps.extend(before.map(|(row, _)| row));
+            places.push(places_of);
         }
-        self.tape.steps.extend(last.map(|(row, _)| row));
+        let (first, mut done) = (self.tape.operands.len(), 0);
+        self.tape
+            .operands
+            .extend(places.iter().map(|all| all.map(|(register, _)| register)));
+        while done < places.len() {
+            let (count, row) = row(&places[done..]);
+            let into = start + done as Register;
+            done += count as usize;
+            match self.tape.steps.last_mut() {
+                // What is in no row is one step.
+                Some(last) if row.is_none() && last.row.is_none() && into > start => {
+                    last.count += count;
+                }
+                _ => self.tape.steps.push(Step {
+                    code,
+                    row,
+                    into,
+                    count,
+                }),
+            }
+        }
+        debug_assert_eq!(self.tape.operands.len(), first + group.len());
         for numbers in operands {
             for number in &numbers[..code.arity()] {
                 self.release(*number);
@@ -268,8 +291,11 @@ impl<'a> Assembly<'a> {
         let start = match self.free.get_mut(&length).and_then(Vec::pop) {
             Some(start) => start,
             None => {
-                let start = self.tape.registers;
-                self.tape.registers += length;
+                let start = match values.len() {
+                    count if count < SHORTEST_ROW => self.tape.registers,
+                    _ => self.tape.registers.next_multiple_of(CHUNK),
+                };
+                self.tape.registers = start + length;
                 Register::try_from(start).map_err(|_| Refusal::TooLong)?
             }
         };
@@ -305,27 +331,29 @@ impl<'a> Assembly<'a> {
     }
 
     /// Without operations, results are copied from the inputs without registers.
-    fn copies(&mut self) {
+    fn copies(&self) -> Vec<Load> {
         let mut copies = Vec::new();
         for write in &self.tape.writes {
-            let mut from = write.from;
-            while from < write.from + write.count as Register {
-                let loads = &mut self.tape.loads.iter();
-                let found = loads
-                    .find(|load| (load.into..load.into + load.count as Register).contains(&from));
-                let Some(load) = found else { return };
-                let before = (from - load.into) as usize;
-                let done = (from - write.from) as usize;
+            let mut done = 0;
+            while done < write.count {
+                let from = write.from as usize + done;
+                let is_loaded = |load: &&Load| {
+                    (load.into as usize..load.into as usize + load.count).contains(&from)
+                };
+                let Some(load) = self.loads.iter().find(is_loaded) else {
+                    break;
+                };
+                let before = from - load.into as usize;
                 let count = (load.count - before).min(write.count - done);
                 copies.push(Load {
                     into: (write.to + done) as Register,
                     count,
                     input: load.input.after(before).unwrap_or(load.input),
                 });
-                from += count as Register;
+                done += count;
             }
         }
-        self.tape.loads = copies;
+        copies
     }
 }
 
@@ -335,23 +363,28 @@ fn singles(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count).step_by(step).map(move |k| (k, step))
 }
 
-impl Step {
-    /// Takes an operation with these operands into the row, if it continues the row.
-    fn takes(&mut self, operands: [Register; 3]) -> bool {
-        let mut strides = self.strides;
-        for slot in 0..3 {
-            let stride = match operands[slot].checked_sub(self.operands[slot]) {
-                Some(0) => 0,
-                Some(distance) if distance as usize == self.count => 1,
-                _ => return false,
-            };
-            if self.count > 1 && stride != strides[slot] {
-                return false;
+/// The length of the row with which these operands begin, each with its register and its block; and its kinds, if it is long enough.
+fn row(places: &[[(Register, usize); 3]]) -> (u32, Option<[Operand; 3]>) {
+    let kinds =
+        |first: &[(Register, usize); 3], place: &[(Register, usize); 3], distance: usize| {
+            let mut kinds = [Operand::Same; 3];
+            for slot in 0..3 {
+                let ((from, block), (to, other)) = (first[slot], place[slot]);
+                kinds[slot] = match to.checked_sub(from) {
+                    _ if block != other => return None,
+                    Some(0) => Operand::Same,
+                    Some(found) if found as usize == distance => Operand::Row,
+                    _ => return None,
+                };
             }
-            strides[slot] = stride;
-        }
-        self.strides = strides;
-        self.count += 1;
-        true
-    }
+            Some(kinds)
+        };
+    let (first, rest) = (&places[0], &places[1..]);
+    let row = rest.first().and_then(|place| kinds(first, place, 1));
+    let mut others = rest.iter().zip(1..);
+    let end =
+        others.find(|(place, distance)| row.is_none() || kinds(first, place, *distance) != row);
+    let count = end.map_or(places.len(), |(_, distance)| distance);
+    let is_row = count >= SHORTEST_ROW && row != Some([Operand::Same; 3]);
+    (count as u32, row.filter(|_| is_row))
 }

@@ -9,6 +9,7 @@ use symplectic::simd::MAX_LANES;
 use symplectic_formula::System;
 use symplectic_formula::graph::Id;
 
+use crate::inputs::Inputs;
 use crate::operation::Code;
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;
@@ -16,18 +17,25 @@ use crate::values::Values;
 /// The number of a register.
 pub(crate) type Register = u32;
 
-/// An operation on a row of registers. It reads at most three rows; the last operands are unused if there are fewer.
+/// An operation on some operands, with its results in successive registers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) code: Code,
-    /// For each operand 1 if it is a row, and 0 if it is the same register for the whole row.
-    pub(crate) strides: [u8; 3],
+    /// The kind of each operand if they form rows, which are computed in chunks.
+    pub(crate) row: Option<[Operand; 3]>,
     /// The first register that it writes.
     pub(crate) into: Register,
-    /// The first register of each operand.
-    pub(crate) operands: [Register; 3],
-    /// The length of the row.
-    pub(crate) count: usize,
+    /// How often it is applied.
+    pub(crate) count: u32,
+}
+
+/// The registers of an operand in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Operand {
+    /// The same register for the whole row.
+    Same,
+    /// Successive registers.
+    Row,
 }
 
 /// The initial value of a register.
@@ -46,6 +54,15 @@ pub enum Input {
 }
 
 impl Input {
+    /// The half of the state, 0 for q and 1 for p, and the component that it reads; `None` for other inputs.
+    pub(crate) fn component(self) -> Option<(usize, usize)> {
+        match self {
+            Input::Position(k) => Some((0, k)),
+            Input::Momentum(k) => Some((1, k)),
+            _ => None,
+        }
+    }
+
     /// The input `k` places after this one in the state.
     pub(crate) fn after(self, k: usize) -> Option<Self> {
         match self {
@@ -54,15 +71,6 @@ impl Input {
             other => (k == 0).then_some(other),
         }
     }
-}
-
-/// Inputs for a row of registers: without operations, for a row of results.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Load {
-    pub(crate) into: Register,
-    pub(crate) count: usize,
-    /// The first input.
-    pub(crate) input: Input,
 }
 
 /// Results in a row of registers.
@@ -77,15 +85,17 @@ pub(crate) struct Write {
 /// The operations that compute a list of results.
 #[derive(Debug, Clone, Default)]
 pub struct Tape {
-    pub(crate) loads: Vec<Load>,
+    pub(crate) inputs: Inputs,
     pub(crate) steps: Vec<Step>,
+    /// The operands of all steps; those that an operation does not need are the first one.
+    pub(crate) operands: Vec<[Register; 3]>,
     pub(crate) writes: Vec<Write>,
     /// Number of registers.
     pub(crate) registers: usize,
     /// Number of results.
     pub(crate) results: usize,
-    /// Whether there are rows that are computed in chunks.
-    pub(crate) is_wide: bool,
+    /// Number of operations in rows.
+    pub(crate) in_rows: usize,
 }
 
 /// The parameters that vary between trajectories. Where one is missing it is NaN, and a step fails.
@@ -154,19 +164,12 @@ pub struct At<'a, T> {
 }
 
 impl<T: Scalar> At<'_, T> {
-    /// The value of an input.
+    /// The time, or a parameter.
     #[inline(always)]
-    pub(crate) fn value(&self, input: Input) -> T {
-        let entry = |half: &[T], k: usize| match half.get(k) {
-            Some(&value) => value,
-            None => T::from_f64(f64::NAN),
-        };
+    pub(crate) fn other(&self, input: Input) -> T {
         match input {
-            Input::Constant(value) => T::from_f64(value),
-            Input::Time => self.time,
-            Input::Position(k) => entry(self.q, k),
-            Input::Momentum(k) => entry(self.p, k),
             Input::Parameter(k) => self.parameters.get(k),
+            _ => self.time,
         }
     }
 }
@@ -193,8 +196,7 @@ impl Tape {
 
     /// What the tape reads.
     pub fn inputs(&self) -> impl Iterator<Item = Input> {
-        let rows = self.loads.iter();
-        rows.flat_map(|load| (0..load.count).filter_map(|k| load.input.after(k)))
+        self.inputs.all()
     }
 
     /// The number of operations.
