@@ -201,7 +201,7 @@ impl Tape {
 
     /// The number of operations.
     pub(crate) fn operations(&self) -> usize {
-        self.steps.iter().map(|step| step.count).sum()
+        self.steps.iter().map(|step| step.count as usize).sum()
     }
 
     /// The result of a tape that has one.
