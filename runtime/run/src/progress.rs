@@ -258,13 +258,13 @@ mod tests {
         let step = |time: f64| [0.68, 0.5, 0.32, 1.0].map(|node| time + node);
         let times = || (0..20).map(f64::from).flat_map(step);
         let lanes = meter(0);
-        pool.install(|| times().for_each(|time| lanes.evaluated(time, 2)));
+        pool.install(|| times().for_each(|time| assert!(lanes.goes_on(time, 2))));
         assert_eq!(lanes.fractions(), [0.5, 0.5]);
         let alone = meter(1);
         pool.install(|| {
             times()
                 .chain(times())
-                .for_each(|time| alone.evaluated(time, 1))
+                .for_each(|time| assert!(alone.goes_on(time, 1)))
         });
         alone.finished.store(2, Ordering::Relaxed);
         assert_eq!(alone.fractions(), [0.75, 0.5]);
