@@ -75,6 +75,12 @@ pub(crate) struct Assembly<'a> {
     tape: Tape,
 }
 
+/// Operations of one kind.
+type Group = (Code, Vec<Number>);
+
+/// The group, the operand, and the place in the group of an operation that reads a value.
+type Reader = (usize, usize, usize);
+
 /// Successive registers.
 struct Block {
     start: Register,
@@ -99,8 +105,9 @@ impl<'a> Assembly<'a> {
 
     /// The tape.
     pub(crate) fn tape(mut self) -> Result<Tape, Refusal> {
-        self.load()?;
-        for (code, group) in self.groups()? {
+        let (groups, readers) = self.groups()?;
+        self.load(&readers)?;
+        for (code, group) in groups {
             self.compute(code, &group)?;
         }
         self.tape.results = self.results.len();
@@ -131,8 +138,8 @@ impl<'a> Assembly<'a> {
         Ok(self.tape)
     }
 
-    /// Places the inputs: components of the state that follow each other in rows.
-    fn load(&mut self) -> Result<(), Refusal> {
+    /// Places the inputs: components of the state in their order, and others in the order in which they are read.
+    fn load(&mut self, readers: &[Reader]) -> Result<(), Refusal> {
         let mut inputs: Vec<(Input, Number)> = Vec::new();
         for (number, value) in self.list.iter().enumerate() {
             let input = match *value {
@@ -147,32 +154,38 @@ impl<'a> Assembly<'a> {
                 inputs.push((input, number as Number));
             }
         }
-        inputs.sort_by_key(|(input, _)| match *input {
-            Input::Position(k) => (0, k),
-            Input::Momentum(k) => (1, k),
-            _ => (2, 0),
-        });
-        let mut rest = &inputs[..];
-        while let Some(&(input, _)) = rest.first() {
-            let mut next = (0..).map_while(|k| Some((input.after(k)?, k)));
-            let count = next
-                .find(|&(input, k)| rest.get(k).is_none_or(|(found, _)| *found != input))
-                .map_or(1, |(_, k)| k.max(1));
-            let (row, others) = rest.split_at(count);
-            let numbers: Vec<Number> = row.iter().map(|(_, number)| *number).collect();
-            let into = self.place(&numbers)?;
-            let parts = singles(count).filter_map(|(k, count)| {
-                let (into, input) = (into + k as Register, input.after(k)?);
-                Some(Load { into, count, input })
-            });
-            self.tape.loads.extend(parts);
-            rest = others;
+        let is_of_state = |(input, _): &(Input, Number)| input.component().is_some();
+        let (mut state, mut others): (Vec<_>, Vec<_>) = inputs.into_iter().partition(is_of_state);
+        others.sort_by_key(|(_, number)| readers[*number as usize]);
+        self.add_loads(&others, 1)?;
+        state.sort_by_key(|(input, _)| input.component());
+        let follow = |before: &(Input, _), next: &(Input, _)| before.0.after(1) == Some(next.0);
+        for row in state.chunk_by(follow) {
+            let count = if row.len() < SHORTEST_ROW {
+                1
+            } else {
+                row.len()
+            };
+            self.add_loads(row, count)?;
         }
         Ok(())
     }
 
-    /// The groups in their order, each in the order of its registers.
-    fn groups(&self) -> Result<Vec<(Code, Vec<Number>)>, Refusal> {
+    /// Places inputs in successive registers, `count` at a time.
+    fn add_loads(&mut self, inputs: &[(Input, Number)], count: usize) -> Result<(), Refusal> {
+        let numbers: Vec<Number> = inputs.iter().map(|(_, number)| *number).collect();
+        let start = self.place(&numbers)?;
+        let loads = inputs.iter().enumerate().step_by(count);
+        self.tape.loads.extend(loads.map(|(k, (input, _))| Load {
+            into: start + k as Register,
+            count,
+            input: *input,
+        }));
+        Ok(())
+    }
+
+    /// The groups in their order, each in the order of its registers; and where each value is read first.
+    fn groups(&self) -> Result<(Vec<Group>, Vec<Reader>), Refusal> {
         let mut levels = vec![0_usize; self.list.len()];
         let mut groups: BTreeMap<(usize, Code), Vec<Number>> = BTreeMap::new();
         let mut count = 0;
@@ -193,7 +206,7 @@ impl<'a> Assembly<'a> {
         if count > MAX_OPERATIONS {
             return Err(Refusal::TooLong);
         }
-        let mut groups: Vec<_> = groups
+        let mut groups: Vec<Group> = groups
             .into_iter()
             .map(|((_, code), group)| (code, group))
             .collect();
@@ -213,7 +226,7 @@ impl<'a> Assembly<'a> {
                 }
             }
         }
-        Ok(groups)
+        Ok((groups, readers))
     }
 
     /// Places a group, and adds its rows to the tape.
@@ -268,8 +281,11 @@ impl<'a> Assembly<'a> {
         let start = match self.free.get_mut(&length).and_then(Vec::pop) {
             Some(start) => start,
             None => {
-                let start = self.tape.registers;
-                self.tape.registers += length;
+                let start = match values.len() {
+                    count if count < SHORTEST_ROW => self.tape.registers,
+                    _ => self.tape.registers.next_multiple_of(CHUNK),
+                };
+                self.tape.registers = start + length;
                 Register::try_from(start).map_err(|_| Refusal::TooLong)?
             }
         };

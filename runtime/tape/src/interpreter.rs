@@ -4,6 +4,7 @@
 
 use std::any::Any;
 use std::cell::RefCell;
+use std::iter::repeat;
 use std::marker::PhantomData;
 use std::slice;
 
@@ -201,7 +202,10 @@ impl<'a, T: Scalar> At<'a, T> {
     }
 }
 
-/// Runs work with at least so many registers, which the thread keeps for the next time. Their values are any.
+/// The size of a cache line: no chunk of a row in a block is in two.
+const LINE: usize = 64;
+
+/// Runs work with so many registers, which the thread keeps for the next time. Their values are any.
 fn with_registers<R: Copy + 'static>(count: usize, zero: R, work: impl FnOnce(&mut [R])) {
     thread_local! {
         static KEPT: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
@@ -212,10 +216,12 @@ fn with_registers<R: Copy + 'static>(count: usize, zero: R, work: impl FnOnce(&m
             kept.swap_remove(place).downcast::<Vec<R>>().ok()
         };
         let mut registers = find(&mut kept.borrow_mut()).unwrap_or_default();
-        if registers.len() < count {
-            registers.resize(count, zero);
+        let room = LINE / size_of::<R>().clamp(1, LINE);
+        if registers.len() < count + room {
+            registers.resize(count + room, zero);
         }
-        work(&mut registers[..count]);
+        let start = registers.as_ptr().align_offset(LINE).min(room);
+        work(&mut registers[start..start + count]);
         kept.borrow_mut().push(registers);
     });
 }
@@ -435,7 +441,12 @@ impl<L: Lanes<Array = Eight>> Use for Row<'_, L> {
         let Self {
             step, registers, ..
         } = self;
-        if step.count < SHORTEST_ROW {
+        let is_same = |slot: usize| slot < O::ARITY && step.strides[slot] == 0;
+        let same = [is_same(0), is_same(1), is_same(2)];
+        let chunks = step.count.div_ceil(CHUNK);
+        let (into, length) = (step.into as usize, chunks * CHUNK);
+        let rows = O::ARITY - same.iter().filter(|same| **same).count();
+        if step.count < SHORTEST_ROW || rows < O::ARITY.div_ceil(2) {
             let row = OneByOne::<f64, [f64]> {
                 step,
                 registers,
@@ -443,8 +454,6 @@ impl<L: Lanes<Array = Eight>> Use for Row<'_, L> {
             };
             return row.with::<O>();
         }
-        let chunks = step.count.div_ceil(CHUNK);
-        let (into, length) = (step.into as usize, chunks * CHUNK);
         let (before, rest) = registers.split_at_mut(into);
         let (out, after) = rest.split_at_mut(length);
         let from = |slot: usize| {
@@ -456,18 +465,37 @@ impl<L: Lanes<Array = Eight>> Use for Row<'_, L> {
         };
         let (a, b, c) = (from(0), from(1), from(2));
         let splats = [[a[0]; CHUNK], [b[0]; CHUNK], [c[0]; CHUNK]];
-        let [a, b, c] = [(a, 0), (b, 1), (c, 2)].map(|(row, slot)| match step.strides[slot] {
-            0 => (slice::from_ref(&splats[slot]), 0),
-            _ => (row[..length].as_chunks().0, 1),
-        });
-        for (k, out) in out.as_chunks_mut().0.iter_mut().enumerate() {
-            let operands = [
-                L::from_array(a.0[k * a.1]),
-                L::from_array(b.0[k * b.1]),
-                L::from_array(c.0[k * c.1]),
-            ];
-            *out = O::of(operands).to_array();
+        let [again, again_b, again_c] =
+            [repeat(&splats[0]), repeat(&splats[1]), repeat(&splats[2])];
+        // An operand that is no row may be at the end.
+        let [a, b, c] = [a, b, c].map(|row| row.get(..length).unwrap_or(&[]).as_chunks().0);
+        let out = out.as_chunks_mut().0;
+        match same {
+            _ if O::ARITY == 1 => in_chunks::<L, O>(out, (a.iter(), again.clone(), again)),
+            [true, ..] if O::ARITY == 2 => in_chunks::<L, O>(out, (again.clone(), b.iter(), again)),
+            [_, true, _] if O::ARITY == 2 => in_chunks::<L, O>(out, (a.iter(), again_b, again)),
+            _ if O::ARITY == 2 => in_chunks::<L, O>(out, (a.iter(), b.iter(), again)),
+            [true, ..] => in_chunks::<L, O>(out, (again, b.iter(), c.iter())),
+            [_, true, _] => in_chunks::<L, O>(out, (a.iter(), again_b, c.iter())),
+            [.., true] => in_chunks::<L, O>(out, (a.iter(), b.iter(), again_c)),
+            _ => in_chunks::<L, O>(out, (a.iter(), b.iter(), c.iter())),
         }
+    }
+}
+
+/// Applies an operation to rows, chunk by chunk. The iterators are over memory, not over lanes, which only inlined functions may return.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn in_chunks<'a, L: Lanes<Array = Eight>, O: Operation>(
+    out: &mut [Eight],
+    (a, b, c): (
+        impl Iterator<Item = &'a Eight>,
+        impl Iterator<Item = &'a Eight>,
+        impl Iterator<Item = &'a Eight>,
+    ),
+) {
+    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        let operands = [L::from_array(*a), L::from_array(*b), L::from_array(*c)];
+        *out = O::of(operands).to_array();
     }
 }
 

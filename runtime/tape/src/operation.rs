@@ -6,6 +6,9 @@ use symplectic::Scalar;
 ///
 /// Not a closure: the compiler may not inline closures into code for wide registers.
 pub(crate) trait Operation {
+    /// The number of operands that it needs.
+    const ARITY: usize;
+
     /// Applies the operation.
     fn of<T: Scalar>(operands: [T; 3]) -> T;
 }
@@ -40,6 +43,8 @@ macro_rules! operations {
             struct $name;
 
             impl Operation for $name {
+                const ARITY: usize = $arity;
+
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn of<T: Scalar>([$a, $b, $c]: [T; 3]) -> T {
                     $value

@@ -46,6 +46,15 @@ pub enum Input {
 }
 
 impl Input {
+    /// The half of the state, 0 for q and 1 for p, and the component that it reads; `None` for other inputs.
+    pub(crate) fn component(self) -> Option<(usize, usize)> {
+        match self {
+            Input::Position(k) => Some((0, k)),
+            Input::Momentum(k) => Some((1, k)),
+            _ => None,
+        }
+    }
+
     /// The input `k` places after this one in the state.
     pub(crate) fn after(self, k: usize) -> Option<Self> {
         match self {
