@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::operation::Code;
-use crate::tape::{Input, Load, Register, Step, Tape, Write};
+use crate::tape::{Input, Load, Operand, Register, Step, Tape, Write};
 use crate::unroll::{MAX_OPERATIONS, Number, Refusal, Value};
 
 /// Length of the shortest row whose block has room for full chunks.
@@ -134,7 +134,7 @@ impl<'a> Assembly<'a> {
         if self.tape.steps.is_empty() {
             self.copies();
         }
-        self.tape.is_wide = (self.tape.steps.iter()).any(|step| step.count >= SHORTEST_ROW);
+        self.tape.is_wide = self.tape.steps.iter().any(|step| step.row.is_some());
         Ok(self.tape)
     }
 
@@ -229,40 +229,43 @@ impl<'a> Assembly<'a> {
         Ok((groups, readers))
     }
 
-    /// Places a group, and adds its rows to the tape.
+    /// Places a group, and adds it to the tape.
     fn compute(&mut self, code: Code, group: &[Number]) -> Result<(), Refusal> {
-        let operands = group.iter().map(|value| match self.list[*value as usize] {
+        let operands = |value: &Number| match self.list[*value as usize] {
             Value::Step(_, operands) => operands,
             _ => [0; 3],
-        });
-        let operands: Vec<[Number; 3]> = operands.collect();
+        };
+        let operands: Vec<[Number; 3]> = group.iter().map(operands).collect();
         let start = self.place(group)?;
-        let mut last: Option<(Step, [usize; 3])> = None;
-        for (k, numbers) in operands.iter().enumerate() {
-            // Operands that the operation does not need are the first one.
-            let mut read = [(0, 0); 3];
-            for (slot, read) in read.iter_mut().enumerate() {
+        let mut places: Vec<[(Register, usize); 3]> = Vec::new();
+        for numbers in &operands {
+            let mut places_of = [(0, 0); 3];
+            for (slot, place) in places_of.iter_mut().enumerate() {
                 let number = numbers[if slot < code.arity() { slot } else { 0 }];
-                *read = *self.places.get(&number).ok_or(Refusal::Outside)?;
+                *place = *self.places.get(&number).ok_or(Refusal::Outside)?;
             }
-            let (registers, blocks) = (read.map(|read| read.0), read.map(|read| read.1));
-            if let Some((row, of_row)) = &mut last
-                && *of_row == blocks
-                && row.takes(registers)
-            {
-                continue;
-            }
-            let step = Step {
-                code,
-                into: start + k as Register,
-                count: 1,
-                operands: registers,
-                strides: [0; 3],
-            };
-            let before = last.replace((step, blocks));
-            self.tape.steps.extend(before.map(|(row, _)| row));
+            places.push(places_of);
         }
-        self.tape.steps.extend(last.map(|(row, _)| row));
+        let (first, mut done) = (self.tape.operands.len(), 0);
+        self.tape.operands.extend(places.iter().map(|all| all.map(|(register, _)| register)));
+        while done < places.len() {
+            let (count, row) = row(&places[done..]);
+            let into = start + done as Register;
+            done += count as usize;
+            match self.tape.steps.last_mut() {
+                // What is in no row is one step.
+                Some(last) if row.is_none() && last.row.is_none() && into > start => {
+                    last.count += count;
+                }
+                _ => self.tape.steps.push(Step {
+                    code,
+                    row,
+                    into,
+                    count,
+                }),
+            }
+        }
+        debug_assert_eq!(self.tape.operands.len(), first + group.len());
         for numbers in operands {
             for number in &numbers[..code.arity()] {
                 self.release(*number);
@@ -351,23 +354,26 @@ fn singles(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count).step_by(step).map(move |k| (k, step))
 }
 
-impl Step {
-    /// Takes an operation with these operands into the row, if it continues the row.
-    fn takes(&mut self, operands: [Register; 3]) -> bool {
-        let mut strides = self.strides;
+/// The length of the row with which these operands begin, each with its register and its block; and its kinds, if it is long enough.
+fn row(places: &[[(Register, usize); 3]]) -> (u32, Option<[Operand; 3]>) {
+    let kinds = |first: &[(Register, usize); 3], place: &[(Register, usize); 3], distance: usize| {
+        let mut kinds = [Operand::Same; 3];
         for slot in 0..3 {
-            let stride = match operands[slot].checked_sub(self.operands[slot]) {
-                Some(0) => 0,
-                Some(distance) if distance as usize == self.count => 1,
-                _ => return false,
+            let ((from, block), (to, other)) = (first[slot], place[slot]);
+            kinds[slot] = match to.checked_sub(from) {
+                _ if block != other => return None,
+                Some(0) => Operand::Same,
+                Some(found) if found as usize == distance => Operand::Row,
+                _ => return None,
             };
-            if self.count > 1 && stride != strides[slot] {
-                return false;
-            }
-            strides[slot] = stride;
         }
-        self.strides = strides;
-        self.count += 1;
-        true
-    }
+        Some(kinds)
+    };
+    let (first, rest) = (&places[0], &places[1..]);
+    let row = rest.first().and_then(|place| kinds(first, place, 1));
+    let mut others = rest.iter().zip(1..);
+    let end = others.find(|(place, distance)| row.is_none() || kinds(first, place, *distance) != row);
+    let count = end.map_or(places.len(), |(_, distance)| distance);
+    let is_row = count >= SHORTEST_ROW && row != Some([Operand::Same; 3]);
+    (count as u32, row.filter(|_| is_row))
 }

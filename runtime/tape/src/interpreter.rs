@@ -13,9 +13,9 @@ use symplectic::nalgebra::DVector;
 use symplectic::simd::Lanes;
 use symplectic_core::inside::{EightLanes, Work, in_eight_lanes};
 
-use crate::assembly::{CHUNK, SHORTEST_ROW};
+use crate::assembly::CHUNK;
 use crate::operation::{Operation, Use, dispatch};
-use crate::tape::{At, Input, Load, Register, Step, Tape};
+use crate::tape::{At, Input, Load, Operand, Register, Step, Tape};
 
 /// Eight numbers side by side.
 type Eight = [f64; CHUNK];
@@ -38,7 +38,7 @@ impl Tape {
                 with_registers(self.registers, T::zero(), |registers| {
                     self.load(at, registers);
                     if let Some(doubles) = T::doubles_mut(registers) {
-                        by_rows(&self.steps, doubles);
+                        by_rows(self, doubles);
                     }
                     finish(registers);
                 });
@@ -46,18 +46,18 @@ impl Tape {
             0..=16 => {
                 let mut registers = [T::zero(); 16];
                 self.load(at, &mut registers);
-                apply(&self.steps, &mut registers);
+                apply(self, &mut registers);
                 finish(&registers);
             }
             17..=64 => {
                 let mut registers = [T::zero(); 64];
                 self.load(at, &mut registers);
-                apply(&self.steps, &mut registers);
+                apply(self, &mut registers);
                 finish(&registers);
             }
             many => with_registers(many, T::zero(), |registers| {
                 self.load(at, registers);
-                apply(&self.steps, registers);
+                apply(self, registers);
                 finish(registers);
             }),
         }
@@ -84,12 +84,12 @@ impl Tape {
                 0..=32 => {
                     let mut registers = [[0.0; CHUNK]; 32];
                     self.load_points(at, vectors.len(), &mut registers);
-                    apply_eights(&self.steps, &mut registers);
+                    apply_eights(self, &mut registers);
                     self.write_points(&registers, vectors);
                 }
                 many => with_registers(many, [0.0; CHUNK], |registers| {
                     self.load_points(at, vectors.len(), registers);
-                    apply_eights(&self.steps, registers);
+                    apply_eights(self, registers);
                     self.write_points(registers, vectors);
                 }),
             }
@@ -286,16 +286,16 @@ impl<L: Lanes<Array = Eight>> Registers<L> for Eights<&mut [Eight]> {
 
 /// The operations of a tape, in the registers of the numbers `T`.
 struct Steps<'a, T, R: ?Sized> {
-    steps: &'a [Step],
+    tape: &'a Tape,
     registers: &'a mut R,
     numbers: PhantomData<T>,
 }
 
 /// Applies the operations of a tape. Not inlined, because there are many callers: so it enters the registers of the numbers.
 #[inline(never)]
-fn apply<T: Scalar, R: Registers<T> + ?Sized>(steps: &[Step], registers: &mut R) {
+fn apply<T: Scalar, R: Registers<T> + ?Sized>(tape: &Tape, registers: &mut R) {
     T::in_registers(Steps {
-        steps,
+        tape,
         registers,
         numbers: PhantomData,
     });
@@ -306,20 +306,25 @@ impl<T: Scalar, R: Registers<T> + ?Sized> Work for Steps<'_, T, R> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
-        for step in self.steps {
-            let row = OneByOne::<T, R> {
-                step,
+        let mut operands = &self.tape.operands[..];
+        for step in &self.tape.steps {
+            let (list, rest) = operands.split_at(step.count as usize);
+            operands = rest;
+            let list = OneByOne::<T, R> {
+                into: step.into,
+                operands: list,
                 registers: &mut *self.registers,
                 numbers: PhantomData,
             };
-            dispatch(step.code, row);
+            dispatch(step.code, list);
         }
     }
 }
 
-/// A row, one register after another.
+/// An operation on one register after another.
 struct OneByOne<'a, T, R: ?Sized> {
-    step: &'a Step,
+    into: Register,
+    operands: &'a [[Register; 3]],
     registers: &'a mut R,
     numbers: PhantomData<T>,
 }
@@ -329,45 +334,31 @@ impl<T: Scalar, R: Registers<T> + ?Sized> Use for OneByOne<'_, T, R> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn with<O: Operation>(self) {
-        let Step {
-            strides,
-            mut into,
-            operands: [mut a, mut b, mut c],
-            count,
-            ..
-        } = *self.step;
-        let mut left = count;
-        loop {
-            let operands = [
+        let mut into = self.into;
+        for &[a, b, c] in self.operands {
+            let [a, b, c] = [
                 self.registers.read(a),
                 self.registers.read(b),
                 self.registers.read(c),
             ];
-            self.registers.write(into, O::of(operands));
-            left -= 1;
-            if left == 0 {
-                return;
-            }
+            self.registers.write(into, O::of([a, b, c]));
             into += 1;
-            a += Register::from(strides[0]);
-            b += Register::from(strides[1]);
-            c += Register::from(strides[2]);
         }
     }
 }
 
 /// The operations of a tape at eight points.
 struct AtEight<'a, R: ?Sized> {
-    steps: &'a [Step],
+    tape: &'a Tape,
     registers: &'a mut R,
 }
 
 #[inline(never)]
-fn apply_eights<R: ?Sized>(steps: &[Step], registers: &mut R)
+fn apply_eights<R: ?Sized>(tape: &Tape, registers: &mut R)
 where
     for<'a> AtEight<'a, R>: EightLanes<Output = ()>,
 {
-    in_eight_lanes(AtEight { steps, registers });
+    in_eight_lanes(AtEight { tape, registers });
 }
 
 impl<const N: usize> EightLanes for AtEight<'_, [Eight; N]> {
@@ -376,7 +367,7 @@ impl<const N: usize> EightLanes for AtEight<'_, [Eight; N]> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<L: Lanes<Array = Eight>>(self) {
         let steps = Steps::<L, _> {
-            steps: self.steps,
+            tape: self.tape,
             registers: &mut Eights(self.registers),
             numbers: PhantomData,
         };
@@ -390,7 +381,7 @@ impl EightLanes for AtEight<'_, [Eight]> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<L: Lanes<Array = Eight>>(self) {
         let steps = Steps::<L, _> {
-            steps: self.steps,
+            tape: self.tape,
             registers: &mut Eights(self.registers),
             numbers: PhantomData,
         };
@@ -398,16 +389,16 @@ impl EightLanes for AtEight<'_, [Eight]> {
     }
 }
 
-/// Operations on rows of doubles.
+/// Operations on doubles.
 struct Rows<'a> {
-    steps: &'a [Step],
+    tape: &'a Tape,
     registers: &'a mut [f64],
 }
 
-/// Applies the operations of a tape to doubles, long rows in chunks.
+/// Applies the operations of a tape to doubles, rows in chunks.
 #[inline(never)]
-fn by_rows(steps: &[Step], registers: &mut [f64]) {
-    in_eight_lanes(Rows { steps, registers });
+fn by_rows(tape: &Tape, registers: &mut [f64]) {
+    in_eight_lanes(Rows { tape, registers });
 }
 
 impl EightLanes for Rows<'_> {
@@ -415,9 +406,13 @@ impl EightLanes for Rows<'_> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<L: Lanes<Array = Eight>>(self) {
-        for step in self.steps {
+        let mut operands = &self.tape.operands[..];
+        for step in &self.tape.steps {
+            let (list, rest) = operands.split_at(step.count as usize);
+            operands = rest;
             let row = Row::<L> {
                 step,
+                operands: list,
                 registers: &mut *self.registers,
                 lanes: PhantomData,
             };
@@ -426,9 +421,10 @@ impl EightLanes for Rows<'_> {
     }
 }
 
-/// A row of doubles, in chunks of lanes `L` if it is long.
+/// An operation on doubles, in chunks of lanes `L` if they are in rows.
 struct Row<'a, L> {
     step: &'a Step,
+    operands: &'a [[Register; 3]],
     registers: &'a mut [f64],
     lanes: PhantomData<L>,
 }
@@ -439,46 +435,49 @@ impl<L: Lanes<Array = Eight>> Use for Row<'_, L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn with<O: Operation>(self) {
         let Self {
-            step, registers, ..
+            step,
+            operands,
+            registers,
+            ..
         } = self;
-        let is_same = |slot: usize| slot < O::ARITY && step.strides[slot] == 0;
-        let same = [is_same(0), is_same(1), is_same(2)];
-        let chunks = step.count.div_ceil(CHUNK);
-        let (into, length) = (step.into as usize, chunks * CHUNK);
-        let rows = O::ARITY - same.iter().filter(|same| **same).count();
-        if step.count < SHORTEST_ROW || rows < O::ARITY.div_ceil(2) {
-            let row = OneByOne::<f64, [f64]> {
-                step,
+        let (Some(kinds), [first, ..]) = (step.row, operands) else {
+            let list = OneByOne::<f64, [f64]> {
+                into: step.into,
+                operands,
                 registers,
                 numbers: PhantomData,
             };
-            return row.with::<O>();
-        }
+            return list.with::<O>();
+        };
+        let (into, length) = (step.into as usize, operands.len().next_multiple_of(CHUNK));
         let (before, rest) = registers.split_at_mut(into);
         let (out, after) = rest.split_at_mut(length);
         let from = |slot: usize| {
-            let register = step.operands[slot] as usize;
+            let register = first[slot] as usize;
             match register < into {
                 true => &before[register..],
                 false => &after[register - into - length..],
             }
         };
         let (a, b, c) = (from(0), from(1), from(2));
-        let splats = [[a[0]; CHUNK], [b[0]; CHUNK], [c[0]; CHUNK]];
-        let [again, again_b, again_c] =
-            [repeat(&splats[0]), repeat(&splats[1]), repeat(&splats[2])];
-        // An operand that is no row may be at the end.
-        let [a, b, c] = [a, b, c].map(|row| row.get(..length).unwrap_or(&[]).as_chunks().0);
+        let same = [[a[0]; CHUNK], [b[0]; CHUNK], [c[0]; CHUNK]];
+        let [same_a, same_b, same_c] = [repeat(&same[0]), repeat(&same[1]), repeat(&same[2])];
+        // An operand that is no row may be near the end.
+        let [a, b, c] = [a, b, c].map(|row| row.get(..length).unwrap_or(&[]).as_chunks().0.iter());
         let out = out.as_chunks_mut().0;
-        match same {
-            _ if O::ARITY == 1 => in_chunks::<L, O>(out, (a.iter(), again.clone(), again)),
-            [true, ..] if O::ARITY == 2 => in_chunks::<L, O>(out, (again.clone(), b.iter(), again)),
-            [_, true, _] if O::ARITY == 2 => in_chunks::<L, O>(out, (a.iter(), again_b, again)),
-            _ if O::ARITY == 2 => in_chunks::<L, O>(out, (a.iter(), b.iter(), again)),
-            [true, ..] => in_chunks::<L, O>(out, (again, b.iter(), c.iter())),
-            [_, true, _] => in_chunks::<L, O>(out, (a.iter(), again_b, c.iter())),
-            [.., true] => in_chunks::<L, O>(out, (a.iter(), b.iter(), again_c)),
-            _ => in_chunks::<L, O>(out, (a.iter(), b.iter(), c.iter())),
+        use Operand::Same;
+        match kinds {
+            _ if O::ARITY == 1 => in_chunks::<L, O>(out, (a, same_b, same_c)),
+            [Same, ..] if O::ARITY == 2 => in_chunks::<L, O>(out, (same_a, b, same_c)),
+            [_, Same, _] if O::ARITY == 2 => in_chunks::<L, O>(out, (a, same_b, same_c)),
+            _ if O::ARITY == 2 => in_chunks::<L, O>(out, (a, b, same_c)),
+            [Same, Same, _] => in_chunks::<L, O>(out, (same_a, same_b, c)),
+            [Same, _, Same] => in_chunks::<L, O>(out, (same_a, b, same_c)),
+            [_, Same, Same] => in_chunks::<L, O>(out, (a, same_b, same_c)),
+            [Same, ..] => in_chunks::<L, O>(out, (same_a, b, c)),
+            [_, Same, _] => in_chunks::<L, O>(out, (a, same_b, c)),
+            [.., Same] => in_chunks::<L, O>(out, (a, b, same_c)),
+            _ => in_chunks::<L, O>(out, (a, b, c)),
         }
     }
 }
@@ -753,18 +752,17 @@ mod tests {
                 tape.load(point.at(&parameters), &mut registers);
                 let mut eights = vec![[0.0; CHUNK]; tape.registers];
                 tape.load_points(|_| point.at(&parameters), 3, &mut eights);
-                let steps = &tape.steps;
                 let rows = Rows {
-                    steps,
+                    tape: &tape,
                     registers: &mut registers,
                 };
                 in_eight_lanes_of(*widest, rows);
                 let points = AtEight {
-                    steps,
+                    tape: &tape,
                     registers: &mut eights[..],
                 };
                 in_eight_lanes_of(*widest, points);
-                if steps.is_empty() {
+                if tape.steps.is_empty() {
                     continue;
                 }
                 for row in &tape.writes {

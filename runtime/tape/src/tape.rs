@@ -16,18 +16,25 @@ use crate::values::Values;
 /// The number of a register.
 pub(crate) type Register = u32;
 
-/// An operation on a row of registers. It reads at most three rows; the last operands are unused if there are fewer.
+/// An operation on some operands, with its results in successive registers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) code: Code,
-    /// For each operand 1 if it is a row, and 0 if it is the same register for the whole row.
-    pub(crate) strides: [u8; 3],
+    /// The kind of each operand if they form rows, which are computed in chunks.
+    pub(crate) row: Option<[Operand; 3]>,
     /// The first register that it writes.
     pub(crate) into: Register,
-    /// The first register of each operand.
-    pub(crate) operands: [Register; 3],
-    /// The length of the row.
-    pub(crate) count: usize,
+    /// How often it is applied.
+    pub(crate) count: u32,
+}
+
+/// The registers of an operand in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Operand {
+    /// The same register for the whole row.
+    Same,
+    /// Successive registers.
+    Row,
 }
 
 /// The initial value of a register.
@@ -88,6 +95,8 @@ pub(crate) struct Write {
 pub struct Tape {
     pub(crate) loads: Vec<Load>,
     pub(crate) steps: Vec<Step>,
+    /// The operands of all steps; those that an operation does not need are the first one.
+    pub(crate) operands: Vec<[Register; 3]>,
     pub(crate) writes: Vec<Write>,
     /// Number of registers.
     pub(crate) registers: usize,
