@@ -134,7 +134,8 @@ impl<'a> Assembly<'a> {
         if self.tape.steps.is_empty() {
             self.copies();
         }
-        self.tape.is_wide = self.tape.steps.iter().any(|step| step.row.is_some());
+        let rows = self.tape.steps.iter().filter(|step| step.row.is_some());
+        self.tape.in_rows = rows.map(|step| step.count as usize).sum();
         Ok(self.tape)
     }
 
@@ -247,7 +248,9 @@ impl<'a> Assembly<'a> {
             places.push(places_of);
         }
         let (first, mut done) = (self.tape.operands.len(), 0);
-        self.tape.operands.extend(places.iter().map(|all| all.map(|(register, _)| register)));
+        self.tape
+            .operands
+            .extend(places.iter().map(|all| all.map(|(register, _)| register)));
         while done < places.len() {
             let (count, row) = row(&places[done..]);
             let into = start + done as Register;
@@ -356,23 +359,25 @@ fn singles(count: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// The length of the row with which these operands begin, each with its register and its block; and its kinds, if it is long enough.
 fn row(places: &[[(Register, usize); 3]]) -> (u32, Option<[Operand; 3]>) {
-    let kinds = |first: &[(Register, usize); 3], place: &[(Register, usize); 3], distance: usize| {
-        let mut kinds = [Operand::Same; 3];
-        for slot in 0..3 {
-            let ((from, block), (to, other)) = (first[slot], place[slot]);
-            kinds[slot] = match to.checked_sub(from) {
-                _ if block != other => return None,
-                Some(0) => Operand::Same,
-                Some(found) if found as usize == distance => Operand::Row,
-                _ => return None,
-            };
-        }
-        Some(kinds)
-    };
+    let kinds =
+        |first: &[(Register, usize); 3], place: &[(Register, usize); 3], distance: usize| {
+            let mut kinds = [Operand::Same; 3];
+            for slot in 0..3 {
+                let ((from, block), (to, other)) = (first[slot], place[slot]);
+                kinds[slot] = match to.checked_sub(from) {
+                    _ if block != other => return None,
+                    Some(0) => Operand::Same,
+                    Some(found) if found as usize == distance => Operand::Row,
+                    _ => return None,
+                };
+            }
+            Some(kinds)
+        };
     let (first, rest) = (&places[0], &places[1..]);
     let row = rest.first().and_then(|place| kinds(first, place, 1));
     let mut others = rest.iter().zip(1..);
-    let end = others.find(|(place, distance)| row.is_none() || kinds(first, place, *distance) != row);
+    let end =
+        others.find(|(place, distance)| row.is_none() || kinds(first, place, *distance) != row);
     let count = end.map_or(places.len(), |(_, distance)| distance);
     let is_row = count >= SHORTEST_ROW && row != Some([Operand::Same; 3]);
     (count as u32, row.filter(|_| is_row))

@@ -408,7 +408,3 @@ impl<C: Class + Unconstrained, T: Scalar, const F: bool> NonholonomicConstraints
         }
     }
 }
-impl Tapes { /// TEMP
-    pub fn describe(&self) { for (n, t) in [("velocity", &self.velocity), ("force", &self.force)] {
-        println!("{n}: {} loads {} steps {} ops {} writes {} registers", t.loads.len(), t.steps.len(), t.operands.len(), t.writes.len(), t.registers);
-        if std::env::var("TAPE").is_ok() { for s in &t.steps { println!("  {:?} x{} {:?} -> {}", s.code, s.count, s.row, s.into); } } } } }

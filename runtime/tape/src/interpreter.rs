@@ -34,7 +34,7 @@ impl Tape {
             }
         };
         match self.registers {
-            _ if T::IS_DOUBLE && self.is_wide => {
+            _ if T::IS_DOUBLE && self.in_rows > 0 => {
                 with_registers(self.registers, T::zero(), |registers| {
                     self.load(at, registers);
                     if let Some(doubles) = T::doubles_mut(registers) {
@@ -63,14 +63,15 @@ impl Tape {
         }
     }
 
-    /// Evaluates the tape at a point for each vector, and writes the results there. Doubles are evaluated at eight points at once.
+    /// Evaluates the tape at a point for each vector, and writes the results there. Doubles are evaluated at eight points at once, unless
+    /// most operations are in rows.
     pub(crate) fn fill<'a, T: Scalar>(
         &self,
         at: impl Fn(usize) -> At<'a, T>,
         vectors: &mut [DVector<T>],
     ) {
-        let in_eights = T::IS_DOUBLE && !self.is_wide && !self.steps.is_empty();
-        if !in_eights || vectors.len() < 2 {
+        let rows_pay = 4 * self.in_rows >= 3 * self.operands.len();
+        if !T::IS_DOUBLE || rows_pay || vectors.len() < 2 {
             for (point, vector) in vectors.iter_mut().enumerate() {
                 self.run(at(point), |to, values| {
                     copy_to(vector.as_mut_slice(), to, values)
@@ -671,7 +672,11 @@ mod tests {
         let (mut wide, mut narrow) = (0, 0);
         each_formula(|formula, random| {
             let tape = assembled(formula);
-            *(if tape.is_wide { &mut wide } else { &mut narrow }) += 1;
+            *(if tape.in_rows > 0 {
+                &mut wide
+            } else {
+                &mut narrow
+            }) += 1;
             let point = Point::any(random);
             let mut found = vec![0; formula.1.len()];
             tape.run(point.at(&parameters), |to, values: &[f64]| {

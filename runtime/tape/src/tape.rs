@@ -102,8 +102,8 @@ pub struct Tape {
     pub(crate) registers: usize,
     /// Number of results.
     pub(crate) results: usize,
-    /// Whether there are rows that are computed in chunks.
-    pub(crate) is_wide: bool,
+    /// Number of operations in rows.
+    pub(crate) in_rows: usize,
 }
 
 /// The parameters that vary between trajectories. Where one is missing it is NaN, and a step fails.
