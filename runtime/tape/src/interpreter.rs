@@ -126,11 +126,15 @@ impl Tape {
         points: usize,
         registers: &mut [Eight],
     ) {
-        for lane in 0..CHUNK {
-            let at = at(lane.min(points - 1));
-            for load in &self.loads {
-                let into = &mut registers[load.into as usize..][..load.count];
-                at.each(load, |k, value| into[k][lane] = double(value));
+        for load in &self.loads {
+            let into = &mut registers[load.into as usize..][..load.count];
+            if load.input.component().is_none() && load.input != Input::Time {
+                // The same at all points.
+                at(0).each(load, |k, value| into[k] = [double(value); CHUNK]);
+                continue;
+            }
+            for lane in 0..CHUNK {
+                at(lane.min(points - 1)).each(load, |k, value| into[k][lane] = double(value));
             }
         }
     }

@@ -277,8 +277,8 @@ impl<R: Summation> EightLanes for SideBySide<'_, R> {
             stages,
             ..
         } = self;
-        // One for each stage: they need not wait for one another.
-        let mut changes = [HalfChange::default(); STAGES];
+        let last = stages.clamp(1, STAGES) - 1;
+        let (mut difference, mut scale) = (L::zero(), L::zero());
         for k in 0..base.len() {
             let products = OfComponent {
                 k,
@@ -286,19 +286,22 @@ impl<R: Summation> EightLanes for SideBySide<'_, R> {
                 terms: &terms,
             };
             let (start, low) = (L::from_f64(base[k]), L::from_f64(low[k]));
-            let new = value::<R, L>(start, low, columns.len(), products).to_array();
-            for stage in 0..stages.min(STAGES) {
-                let old = out[stage][k];
-                let new = moved(R::OVERRELAXED, old, new[stage]);
-                changes[stage].record(base[k], old, new);
-                out[stage][k] = new;
+            let new = value::<R, L>(start, low, columns.len(), products);
+            // Lanes without a stage repeat the last one, as those of the columns do.
+            let old = L::from_fn(|lane| out[lane.min(last)][k]);
+            let new = moved(R::OVERRELAXED, old, new);
+            difference = difference.larger_or_nan((new - old).abs());
+            scale = scale.larger_or_nan(start.abs()).larger_or_nan(new.abs());
+            let new = new.to_array();
+            for stage in 0..=last {
+                out[stage][k] = new[stage];
             }
         }
-        let mut all = HalfChange::default();
-        for change in changes {
-            all.join(change.difference(), change.scale());
-        }
-        (all.difference(), all.scale())
+        let largest = |lanes: L| match lanes.any_nan() {
+            true => f64::NAN,
+            false => lanes.largest(),
+        };
+        (largest(difference), largest(scale))
     }
 }
 
