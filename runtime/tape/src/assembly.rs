@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::inputs::Load;
 use crate::operation::Code;
-use crate::tape::{Input, Load, Operand, Register, Step, Tape, Write};
+use crate::tape::{Input, Operand, Register, Step, Tape, Write};
 use crate::unroll::{MAX_OPERATIONS, Number, Refusal, Value};
 
 /// Length of the shortest row whose block has room for full chunks.
@@ -70,6 +71,7 @@ pub(crate) struct Assembly<'a> {
     /// Register and block of each value.
     places: HashMap<Number, (Register, usize)>,
     blocks: Vec<Block>,
+    loads: Vec<Load>,
     /// Free blocks by their length.
     free: BTreeMap<usize, Vec<Register>>,
     tape: Tape,
@@ -98,6 +100,7 @@ impl<'a> Assembly<'a> {
             left: uses,
             places: HashMap::new(),
             blocks: Vec::new(),
+            loads: Vec::new(),
             free: BTreeMap::new(),
             tape: Tape::default(),
         }
@@ -131,9 +134,10 @@ impl<'a> Assembly<'a> {
                 })
             })
             .collect();
-        if self.tape.steps.is_empty() {
-            self.copies();
-        }
+        self.tape.inputs = match self.tape.steps.is_empty() {
+            true => self.copies().into_iter().collect(),
+            false => self.loads.iter().copied().collect(),
+        };
         let rows = self.tape.steps.iter().filter(|step| step.row.is_some());
         self.tape.in_rows = rows.map(|step| step.count as usize).sum();
         Ok(self.tape)
@@ -177,7 +181,7 @@ impl<'a> Assembly<'a> {
         let numbers: Vec<Number> = inputs.iter().map(|(_, number)| *number).collect();
         let start = self.place(&numbers)?;
         let loads = inputs.iter().enumerate().step_by(count);
-        self.tape.loads.extend(loads.map(|(k, (input, _))| Load {
+        self.loads.extend(loads.map(|(k, (input, _))| Load {
             into: start + k as Register,
             count,
             input: *input,
@@ -327,27 +331,29 @@ impl<'a> Assembly<'a> {
     }
 
     /// Without operations, results are copied from the inputs without registers.
-    fn copies(&mut self) {
+    fn copies(&self) -> Vec<Load> {
         let mut copies = Vec::new();
         for write in &self.tape.writes {
-            let mut from = write.from;
-            while from < write.from + write.count as Register {
-                let loads = &mut self.tape.loads.iter();
-                let found = loads
-                    .find(|load| (load.into..load.into + load.count as Register).contains(&from));
-                let Some(load) = found else { return };
-                let before = (from - load.into) as usize;
-                let done = (from - write.from) as usize;
+            let mut done = 0;
+            while done < write.count {
+                let from = write.from as usize + done;
+                let is_loaded = |load: &&Load| {
+                    (load.into as usize..load.into as usize + load.count).contains(&from)
+                };
+                let Some(load) = self.loads.iter().find(is_loaded) else {
+                    break;
+                };
+                let before = from - load.into as usize;
                 let count = (load.count - before).min(write.count - done);
                 copies.push(Load {
                     into: (write.to + done) as Register,
                     count,
                     input: load.input.after(before).unwrap_or(load.input),
                 });
-                from += count as Register;
+                done += count;
             }
         }
-        self.tape.loads = copies;
+        copies
     }
 }
 

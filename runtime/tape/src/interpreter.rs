@@ -6,7 +6,6 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::iter::repeat;
 use std::marker::PhantomData;
-use std::slice;
 
 use symplectic::Scalar;
 use symplectic::nalgebra::DVector;
@@ -15,7 +14,7 @@ use symplectic_core::inside::{EightLanes, Work, in_eight_lanes};
 
 use crate::assembly::CHUNK;
 use crate::operation::{Operation, Use, dispatch};
-use crate::tape::{At, Input, Load, Operand, Register, Step, Tape};
+use crate::tape::{At, Operand, Register, Step, Tape};
 
 /// Eight numbers side by side.
 type Eight = [f64; CHUNK];
@@ -26,7 +25,8 @@ impl Tape {
     /// A few registers are an array on the stack. More are kept by the thread for the next evaluation.
     pub fn run<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, &[T])) {
         if self.steps.is_empty() {
-            return self.copy(at, write);
+            // Results that are inputs, such as the velocity with unit masses.
+            return self.inputs.each(at, write);
         }
         let mut finish = |registers: &[T]| {
             for row in &self.writes {
@@ -97,26 +97,10 @@ impl Tape {
         }
     }
 
-    /// Copies results that are inputs, such as the velocity with unit masses.
-    #[inline]
-    fn copy<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, &[T])) {
-        for load in &self.loads {
-            match at.row(load) {
-                Some(row) => write(load.into as usize, row),
-                None => at.each(load, |k, value| write(load.into as usize + k, &[value])),
-            }
-        }
-    }
-
     #[inline]
     fn load<T: Scalar>(&self, at: At<'_, T>, registers: &mut [T]) {
-        for load in &self.loads {
-            let into = load.into as usize;
-            match at.row(load) {
-                Some(row) => registers[into..into + load.count].copy_from_slice(row),
-                None => at.each(load, |k, value| registers[into + k] = value),
-            }
-        }
+        self.inputs
+            .each(at, |into, values| copy_to(registers, into, values));
     }
 
     /// Loads at most eight points. Lanes without a point repeat the last one.
@@ -126,16 +110,16 @@ impl Tape {
         points: usize,
         registers: &mut [Eight],
     ) {
-        for load in &self.loads {
-            let into = &mut registers[load.into as usize..][..load.count];
-            if load.input.component().is_none() && load.input != Input::Time {
-                // The same at all points.
-                at(0).each(load, |k, value| into[k] = [double(value); CHUNK]);
-                continue;
-            }
-            for lane in 0..CHUNK {
-                at(lane.min(points - 1)).each(load, |k, value| into[k][lane] = double(value));
-            }
+        (self.inputs).each_constant(|into, value| registers[into] = [value; CHUNK]);
+        for lane in 0..CHUNK {
+            let write = |into: usize, values: &[T]| {
+                let values = T::doubles(values).unwrap_or(&[]).iter();
+                let places = registers[into..].iter_mut();
+                places
+                    .zip(values)
+                    .for_each(|(place, value)| place[lane] = *value);
+            };
+            self.inputs.each_of_point(at(lane.min(points - 1)), write);
         }
     }
 
@@ -166,44 +150,6 @@ pub(crate) fn copy_to<T: Scalar>(out: &mut [T], to: usize, values: &[T]) {
     } else if let Some(out) = out.get_mut(to..) {
         let count = out.len().min(values.len());
         out[..count].copy_from_slice(&values[..count]);
-    }
-}
-
-/// A number that is a double.
-#[inline(always)]
-fn double<T: Scalar>(number: T) -> f64 {
-    T::doubles(slice::from_ref(&number)).map_or(f64::NAN, |number| number[0])
-}
-
-impl<'a, T: Scalar> At<'a, T> {
-    /// The components of the state that a row of several inputs reads, if all exist.
-    #[inline(always)]
-    fn row(&self, load: &Load) -> Option<&'a [T]> {
-        let (half, first) = match load.input {
-            _ if load.count == 1 => return None,
-            Input::Position(first) => (self.q, first),
-            Input::Momentum(first) => (self.p, first),
-            _ => return None,
-        };
-        half.get(first..first + load.count)
-    }
-
-    /// Calls `work` with the number and the value of each input of a row.
-    #[inline(always)]
-    fn each(&self, load: &Load, mut work: impl FnMut(usize, T)) {
-        if load.count == 1 {
-            return work(0, self.value(load.input));
-        }
-        match self.row(load) {
-            Some(row) => row
-                .iter()
-                .enumerate()
-                .for_each(|(k, value)| work(k, *value)),
-            None => {
-                let inputs = (0..load.count).filter_map(|k| Some((k, load.input.after(k)?)));
-                inputs.for_each(|(k, input)| work(k, self.value(input)));
-            }
-        }
     }
 }
 
@@ -341,12 +287,17 @@ impl<T: Scalar, R: Registers<T> + ?Sized> Use for OneByOne<'_, T, R> {
     fn with<O: Operation>(self) {
         let mut into = self.into;
         for &[a, b, c] in self.operands {
-            let [a, b, c] = [
-                self.registers.read(a),
-                self.registers.read(b),
-                self.registers.read(c),
-            ];
-            self.registers.write(into, O::of([a, b, c]));
+            // Constant conditions: only what is needed is read.
+            let first = self.registers.read(a);
+            let second = match O::ARITY > 1 {
+                true => self.registers.read(b),
+                false => first,
+            };
+            let third = match O::ARITY > 2 {
+                true => self.registers.read(c),
+                false => first,
+            };
+            self.registers.write(into, O::of([first, second, third]));
             into += 1;
         }
     }

@@ -32,6 +32,7 @@
 mod assembly;
 mod constraints;
 mod formula;
+mod inputs;
 mod interpreter;
 mod operation;
 mod tape;

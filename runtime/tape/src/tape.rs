@@ -9,6 +9,7 @@ use symplectic::simd::MAX_LANES;
 use symplectic_formula::System;
 use symplectic_formula::graph::Id;
 
+use crate::inputs::Inputs;
 use crate::operation::Code;
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;
@@ -72,15 +73,6 @@ impl Input {
     }
 }
 
-/// Inputs for a row of registers: without operations, for a row of results.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Load {
-    pub(crate) into: Register,
-    pub(crate) count: usize,
-    /// The first input.
-    pub(crate) input: Input,
-}
-
 /// Results in a row of registers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Write {
@@ -93,7 +85,7 @@ pub(crate) struct Write {
 /// The operations that compute a list of results.
 #[derive(Debug, Clone, Default)]
 pub struct Tape {
-    pub(crate) loads: Vec<Load>,
+    pub(crate) inputs: Inputs,
     pub(crate) steps: Vec<Step>,
     /// The operands of all steps; those that an operation does not need are the first one.
     pub(crate) operands: Vec<[Register; 3]>,
@@ -172,19 +164,12 @@ pub struct At<'a, T> {
 }
 
 impl<T: Scalar> At<'_, T> {
-    /// The value of an input.
+    /// The time, or a parameter.
     #[inline(always)]
-    pub(crate) fn value(&self, input: Input) -> T {
-        let entry = |half: &[T], k: usize| match half.get(k) {
-            Some(&value) => value,
-            None => T::from_f64(f64::NAN),
-        };
+    pub(crate) fn other(&self, input: Input) -> T {
         match input {
-            Input::Constant(value) => T::from_f64(value),
-            Input::Time => self.time,
-            Input::Position(k) => entry(self.q, k),
-            Input::Momentum(k) => entry(self.p, k),
             Input::Parameter(k) => self.parameters.get(k),
+            _ => self.time,
         }
     }
 }
@@ -211,8 +196,7 @@ impl Tape {
 
     /// What the tape reads.
     pub fn inputs(&self) -> impl Iterator<Item = Input> {
-        let rows = self.loads.iter();
-        rows.flat_map(|load| (0..load.count).filter_map(|k| load.input.after(k)))
+        self.inputs.all()
     }
 
     /// The result of a tape that has one.
