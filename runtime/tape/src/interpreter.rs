@@ -285,8 +285,7 @@ impl<T: Scalar, R: Registers<T> + ?Sized> Use for OneByOne<'_, T, R> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn with<O: Operation>(self) {
-        let mut into = self.into;
-        for &[a, b, c] in self.operands {
+        for (into, &[a, b, c]) in (self.into..).zip(self.operands) {
             // Constant conditions: only what is needed is read.
             let first = self.registers.read(a);
             let second = match O::ARITY > 1 {
@@ -298,7 +297,6 @@ impl<T: Scalar, R: Registers<T> + ?Sized> Use for OneByOne<'_, T, R> {
                 false => first,
             };
             self.registers.write(into, O::of([first, second, third]));
-            into += 1;
         }
     }
 }
