@@ -6,8 +6,9 @@
     reason = "without the harness this says what ran"
 )]
 
-use std::alloc::System;
+use std::alloc::System as SystemAllocator;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use nalgebra::{DVector, SVector};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -23,6 +24,8 @@ use symplectic::{
     Compensated, Error, Integrator, Method, ProvedFor, Scalar, Separable, State, hamiltonian,
     separable,
 };
+use symplectic_formula::{Form, Structure, System};
+use symplectic_tape::{Formula, Parameters, Tapes, Values};
 use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::formulas::Kepler;
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
@@ -46,7 +49,7 @@ symplectic::hamiltonian! {
 }
 
 #[global_allocator]
-static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+static ALLOCATOR: &StatsAlloc<SystemAllocator> = &INSTRUMENTED_SYSTEM;
 
 /// Allocations in a hundred steps and one run to an end.
 fn allocations<
@@ -75,6 +78,15 @@ fn at_run_time<S: symplectic::System<DVector<f64>, Class: Conservative>>(
     let made = || Integrator::new(tableau.clone(), system(), start.clone(), 0.01);
     let newton = Newton::<Dense<Differences>>::new();
     Ok(counted(made()?)? + counted(made()?.with_solver(newton))?)
+}
+
+/// Forty particles and their springs, on a tape with more registers than are on the stack.
+fn springs() -> Result<Formula<Separable>, Box<dyn std::error::Error>> {
+    let text = "Springs q: [..], p: [..]; bonds: walls; H = sum(i: p[i]^2/2 - cos(q[i])) + sum(bonds d: d^2/2 + d^4/4)";
+    let mut system = System::read_as(Form::Hamiltonian, "springs", text)?;
+    let structure = Structure::of(&mut system);
+    let tapes = Tapes::new(&mut system, &structure, &Values::of_bodies(40), 0.0)?;
+    Ok(Formula::new(Arc::new(tapes), Parameters::none()))
 }
 
 fn counted<M: Method, S: symplectic::System<DVector<f64>>, N: Solver<DVector<f64>, S>>(
@@ -181,6 +193,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(at_run_time(["polynomial(2)", "lobatto(2)"], chain)?, 0);
     assert_eq!(at_run_time(gauss, chain)?, 0);
     assert_eq!(at_run_time(gauss, coupled)?, 0);
+    // The first evaluation of a formula makes the registers of its tape.
+    for expected in [None, Some(0)] {
+        for found in [
+            allocations(StoermerVerlet, springs()?, Automatic)?,
+            allocations(Gauss4, springs()?, Automatic)?,
+            at_run_time(gauss, || springs().expect("a formula"))?,
+        ] {
+            assert_eq!(found, expected.unwrap_or(found));
+        }
+    }
     let links = || Links::new((1..20).map(|k| (k - 1, k)).collect());
     let sideways = DVector::from_fn(40, |k, _| ((k / 2 + 1) * (1 - k % 2)) as f64);
     let start = || State::new(0.0, sideways.clone(), DVector::zeros(40));
