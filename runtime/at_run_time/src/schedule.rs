@@ -258,11 +258,11 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
     }
 }
 
-/// The columns of a matrix that has five to eight rows and no zeros, as in Gauss methods; otherwise none. Fewer stages are summed faster one by
+/// The columns of a matrix that has four to eight rows and no zeros, as in Gauss methods; otherwise none. Fewer stages are summed faster one by
 /// one.
 fn columns(matrix: &[Vec<f64>]) -> Vec<[f64; 8]> {
     let is_full = matrix.iter().flatten().all(|entry| *entry != 0.0);
-    if !is_full || !(5..=8).contains(&matrix.len()) {
+    if !is_full || !(4..=8).contains(&matrix.len()) {
         return Vec::new();
     }
     let last = matrix.len() - 1;
