@@ -258,12 +258,14 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
     }
 }
 
-/// The columns of a matrix that has at most eight rows and no zeros, as in Gauss methods; otherwise none.
+/// The columns of a matrix that has four to eight rows and no zeros, as in Gauss methods; otherwise none. Fewer stages are summed faster one by
+/// one.
 fn columns(matrix: &[Vec<f64>]) -> Vec<[f64; 8]> {
     let is_full = matrix.iter().flatten().all(|entry| *entry != 0.0);
-    let (Some(last), true) = (matrix.len().checked_sub(1), is_full && matrix.len() <= 8) else {
+    if !is_full || !(4..=8).contains(&matrix.len()) {
         return Vec::new();
-    };
+    }
+    let last = matrix.len() - 1;
     let column = |j: usize| array::from_fn(|lane| matrix[lane.min(last)][j]);
     (0..matrix[0].len()).map(column).collect()
 }

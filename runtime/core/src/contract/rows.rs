@@ -42,7 +42,7 @@ pub struct HalfRows {
     pub matrix: Vec<Vec<f64>>,
     /// Its nonzero entries.
     pub rows: Vec<Row>,
-    /// The matrix by columns, if it has at most eight rows and no zeros; otherwise empty. The last stage is repeated to fill the lanes.
+    /// The matrix by columns, if sums are to be side by side; otherwise empty. The last stage is repeated to fill the lanes.
     pub columns: Vec<[f64; 8]>,
     /// For each stage value, the evaluation there.
     pub evaluations: Vec<Evaluation>,

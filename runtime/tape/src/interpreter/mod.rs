@@ -23,6 +23,9 @@ use crate::tape::{At, Register, Tape};
 /// Eight numbers side by side.
 type Eight = [f64; CHUNK];
 
+/// The smallest number of points that are faster at once than one after another.
+const FEWEST_POINTS: usize = 4;
+
 impl Tape {
     /// Evaluates the tape at a point, and calls `write` with the number of a result and the values from there on.
     ///
@@ -68,14 +71,14 @@ impl Tape {
     }
 
     /// Evaluates the tape at a point for each vector, and writes the results there. Doubles are evaluated at eight points at once, unless
-    /// most operations are in rows.
+    /// there are few points or most operations are in rows.
     pub(crate) fn fill<'a, T: Scalar>(
         &self,
         at: impl Fn(usize) -> At<'a, T>,
         vectors: &mut [DVector<T>],
     ) {
         let rows_pay = 4 * self.in_rows >= 3 * self.operands.len();
-        if !T::IS_DOUBLE || rows_pay || vectors.len() < 2 {
+        if !T::IS_DOUBLE || rows_pay || vectors.len() < FEWEST_POINTS {
             for (point, vector) in vectors.iter_mut().enumerate() {
                 self.run(at(point), |to, values| {
                     copy_to(vector.as_mut_slice(), to, values)
