@@ -178,10 +178,14 @@ mod by_threads {
         }
     }
 
-    /// Runs jobs with the numbers below `count` on the threads of `rayon`, and `meanwhile` on this one. Independent of the types of the
-    /// rows, so it is compiled only once.
+    /// Runs jobs with the numbers below `count` on the threads of `rayon`, and `meanwhile` on this one; a single job also on this one, which
+    /// then waits for no other work of those threads. Independent of the types of the rows, so it is compiled only once.
     #[inline(never)]
     fn do_all(count: usize, job: &(dyn Fn(usize) + Sync), meanwhile: &mut dyn FnMut()) {
+        if count == 1 {
+            job(0);
+            return meanwhile();
+        }
         rayon::in_place_scope(|scope| {
             for number in 0..count {
                 scope.spawn(move |_| job(number));

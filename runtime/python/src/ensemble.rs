@@ -11,6 +11,7 @@ use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::solver::Newton;
+use symplectic::stepper::RemainingSteps;
 use symplectic::system::{Class, Conservative};
 use symplectic::tangent::{self, Megno, Tangent};
 use symplectic::{Compensated, Hamiltonian, Integrator, Method as Steps, State, Statistics};
@@ -20,7 +21,7 @@ use crate::errors;
 use crate::events::{Events, Given};
 use crate::method::Method;
 use crate::problem::Problem;
-use crate::single::{OneByOne, Output, Plan, Seen};
+use crate::single::{OneByOne, Output, Plan, Seen, reserve};
 use crate::watch::{Pulse, guarded};
 use crate::work::{Failure, Families, FreeWork, Job, Setting, Starts, Vector, Work};
 
@@ -66,11 +67,22 @@ impl Ends {
 
     /// Sets the arrays `end_t`, `end_q`, `end_p`, the counts and the failures.
     fn write<'py>(
-        self,
+        mut self,
         py: Python<'py>,
         found: &Bound<'py, PyDict>,
         dimension: usize,
+        interrupted: Option<PyErr>,
     ) -> PyResult<()> {
+        if interrupted.is_some() {
+            for (_, message, kind) in &mut self.failures {
+                *message = "the run was interrupted".to_owned();
+                *kind = "interrupted";
+            }
+        }
+        found.set_item(
+            "interrupted",
+            interrupted.map(|signal| signal.into_value(py)),
+        )?;
         let count = self.t.len();
         let shaped = |list: Vec<f64>| list.into_pyarray(py).reshape([count, dimension]);
         found.set_item("end_t", self.t.into_pyarray(py))?;
@@ -202,13 +214,24 @@ pub(crate) fn ensemble<'py>(
         varied,
         count,
     };
-    let job = Job::new(problem, method, &setting, starts, end)?;
     let dimension = problem.dimension;
     let width = times.len() * dimension;
-    let size = count
-        .checked_mul(width)
-        .filter(|size| *size <= 1 << 40)
-        .ok_or_else(|| errors::argument("the output does not fit into memory: give fewer times"))?;
+    let size = count.saturating_mul(width);
+    reserve(size.div_ceil(dimension), dimension)?;
+    // Output times are in equal steps to the end, as without output.
+    let mut setting = setting;
+    let mut seen = times.clone();
+    if let Some(&last) = times.last() {
+        let remaining = RemainingSteps::between(time, end, setting.step);
+        let size = remaining
+            .ok()
+            .and_then(|remaining| Some(remaining.next()?.0));
+        setting.step = size.unwrap_or(setting.step);
+        if last != end {
+            seen.push(end);
+        }
+    }
+    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
     // A state that is not reached stays NaN.
     let (mut all_q, mut all_p) = (vec![f64::NAN; size], vec![f64::NAN; size]);
     let chunks = all_q.chunks_exact_mut(width.max(1));
@@ -216,7 +239,7 @@ pub(crate) fn ensemble<'py>(
     let places = chunks.map(|(q, p)| Mutex::new(Some(Place { q, p, row: 0 })));
     let work = InLanes {
         end,
-        times: &times,
+        times: &seen,
         places: places.collect(),
         dimension,
         pulse: &job.pulse,
@@ -232,11 +255,7 @@ pub(crate) fn ensemble<'py>(
         found.set_item("q", all_q.into_pyarray(py).reshape(shape)?)?;
         found.set_item("p", all_p.into_pyarray(py).reshape(shape)?)?;
     }
-    ends.write(py, &found, dimension)?;
-    found.set_item(
-        "interrupted",
-        interrupted.map(|signal| signal.into_value(py)),
-    )?;
+    ends.write(py, &found, dimension, interrupted)?;
     Ok(found)
 }
 
@@ -265,18 +284,17 @@ pub(crate) fn section<'py>(
         varied: varied.as_slice()?,
         count,
     };
-    let job = Job::new(problem, method, &setting, starts, end)?;
+    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
     let output = Output::Steps(0);
-    let work = OneByOne {
-        plan: Plan {
-            end,
-            output: &output,
-            events: &events,
-            tapes: &problem.tapes,
-            most: MOST_EVENTS / count.max(1),
-        },
+    let most = MOST_EVENTS / count.max(1);
+    let work = OneByOne(Plan {
+        end,
+        output: &output,
+        events: &events,
+        tapes: &problem.tapes,
+        most,
         pulse: &job.pulse,
-    };
+    });
     let (rows, interrupted) = guarded(py, &job.pulse, progress.as_ref(), || job.run(work))?;
     let rows = rows?;
     let dimension = problem.dimension;
@@ -285,6 +303,12 @@ pub(crate) fn section<'py>(
     let mut counts = Vec::with_capacity(rows.len());
     for row in rows {
         ends.add(&row);
+        if row.output.is_full {
+            let message =
+                format!("it has more than {most} events: give fewer starts, or an earlier end");
+            ends.failures
+                .push((row.trajectory, message, "too many events"));
+        }
         counts.push(row.output.indices.len() as u64);
         all.events.t.extend(row.output.events.t);
         all.events.q.extend(row.output.events.q);
@@ -305,11 +329,7 @@ pub(crate) fn section<'py>(
     found.set_item("event_p", p)?;
     found.set_item("event_index", all.indices.into_pyarray(py))?;
     found.set_item("counts", counts.into_pyarray(py))?;
-    ends.write(py, &found, dimension)?;
-    found.set_item(
-        "interrupted",
-        interrupted.map(|signal| signal.into_value(py)),
-    )?;
+    ends.write(py, &found, dimension, interrupted)?;
     Ok(found)
 }
 
@@ -506,7 +526,7 @@ pub(crate) fn chaos<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts, end)?;
+    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Chaos {
@@ -523,11 +543,7 @@ pub(crate) fn chaos<'py>(
     };
     found.set_item("megno", column(0))?;
     found.set_item("lyapunov", column(1))?;
-    ends.write(py, &found, problem.dimension)?;
-    found.set_item(
-        "interrupted",
-        interrupted.map(|signal| signal.into_value(py)),
-    )?;
+    ends.write(py, &found, problem.dimension, interrupted)?;
     Ok(found)
 }
 
@@ -554,7 +570,7 @@ pub(crate) fn transition<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts, end)?;
+    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Follow {
@@ -572,10 +588,6 @@ pub(crate) fn transition<'py>(
         "displacements",
         displacements.reshape([rows, 2 * dimension])?,
     )?;
-    ends.write(py, &found, dimension)?;
-    found.set_item(
-        "interrupted",
-        interrupted.map(|signal| signal.into_value(py)),
-    )?;
+    ends.write(py, &found, dimension, interrupted)?;
     Ok(found)
 }

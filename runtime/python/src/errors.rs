@@ -90,10 +90,11 @@ pub(crate) fn in_python(error: &symplectic::Error) -> String {
     }
 }
 
+/// Python has no sums but compensated ones, and no tolerance.
 fn stagnation(error: &symplectic::Error) -> String {
     let text = error.to_string();
     let text = text.split(", or take `Plain` sums").next();
-    format!("{}, or take `sums=\"plain\"`", text.unwrap_or_default())
+    text.unwrap_or_default().to_owned()
 }
 
 /// The kind of an error of a step, in a few words.

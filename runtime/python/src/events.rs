@@ -79,6 +79,12 @@ impl Events {
         Ok(Events(all))
     }
 
+    /// The number of evaluations in every step.
+    pub(crate) fn looks(&self) -> f64 {
+        let samples = self.0.iter().map(|own| own.samples.unwrap_or(8));
+        samples.map(f64::from).sum()
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -12,7 +12,19 @@ use crate::tableau::Tableau;
 
 /// A method that takes steps.
 #[pyclass(frozen, module = "symplectica._native")]
-pub(crate) struct Method(pub(crate) RunTimeTableau);
+pub(crate) struct Method {
+    pub(crate) tableau: RunTimeTableau,
+    /// Whether it is derived, with proved orders.
+    pub(crate) is_proved: bool,
+}
+
+/// A derived method.
+fn proved(tableau: RunTimeTableau) -> Method {
+    Method {
+        tableau,
+        is_proved: true,
+    }
+}
 
 /// Methods with steps for constraints, which live as long as the program: with each the text of its exact data and the kind of constraints.
 static CONSTRAINED: Mutex<Vec<(String, bool, RunTimeTableau)>> = Mutex::new(Vec::new());
@@ -28,7 +40,7 @@ impl Method {
         let refused =
             |refusal: symplectic_run::method::Refusal| errors::argument(refusal.to_string());
         let Some(are_holonomic) = holonomic else {
-            return made().map(Method).map_err(refused);
+            return made().map(proved).map_err(refused);
         };
         let text = exact.provenance().definition.to_string();
         let lock = || {
@@ -41,11 +53,11 @@ impl Method {
             .find(|(known, kind, _)| (known, *kind) == (&text, are_holonomic))
             .map(|(.., method)| method.clone());
         if let Some(method) = known {
-            return Ok(Method(method));
+            return Ok(proved(method));
         }
         let method = made().map_err(refused)?;
         lock()?.push((text, are_holonomic, method.clone()));
-        Ok(Method(method))
+        Ok(proved(method))
     }
 
     /// A method of doubles, about which nothing is proved. `orders` are believed.
@@ -74,29 +86,32 @@ impl Method {
             nystrom,
         };
         RunTimeTableau::new(name, &coefficients, orders)
-            .map(Method)
+            .map(|tableau| Method {
+                tableau,
+                is_proved: false,
+            })
             .map_err(|error| errors::argument(error.to_string()))
     }
 
     #[getter]
     fn name(&self) -> &str {
-        self.0.name()
+        self.tableau.name()
     }
 
     #[getter]
     fn stages(&self) -> usize {
-        self.0.stages()
+        self.tableau.stages()
     }
 
     /// The orders for general, separable and Nyström Hamiltonians.
     #[getter]
     fn orders(&self) -> (u32, u32, u32) {
-        let orders = self.0.orders();
+        let orders = self.tableau.orders();
         (orders.general, orders.separable, orders.nystrom)
     }
 
     #[getter]
     fn is_explicit(&self) -> bool {
-        self.0.is_explicit()
+        self.tableau.is_explicit()
     }
 }

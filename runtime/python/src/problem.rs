@@ -174,7 +174,8 @@ impl Problem {
         p: PyReadonlyArray2<'py, f64>,
         varied: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let tape = self.expression("expression", text)?;
+        // The momenta of states are those of the formula, also with friction.
+        let tape = self.tape("expression", text, None)?;
         let states = States::new(self, &t, &q, &p, &varied)?;
         let found = py.detach(|| states.values(&tape));
         Ok(found.into_pyarray(py))
@@ -250,13 +251,25 @@ impl Problem {
             };
             p += more;
         }
+        let missing = (&wanted - velocity(p.as_slice())).amax();
+        let scale = wanted.amax().max(at_rest.amax());
+        if missing.is_nan() || missing > 1e-9 * scale {
+            return Err(errors::argument(
+                "H is not quadratic in the momenta, so velocities do not determine them: give the momenta `p`",
+            ));
+        }
         Ok(p.as_slice().to_vec())
     }
 }
 
 impl Problem {
-    /// The tape of an expression with the names of the formula.
+    /// The tape of an expression with the names of the formula, for the states of integrators.
     pub(crate) fn expression(&self, key: &str, text: &str) -> PyResult<Tape> {
+        self.tape(key, text, Some(self.start))
+    }
+
+    /// The tape of an expression. With friction from a time `start`, the momenta are those of integrators.
+    fn tape(&self, key: &str, text: &str, start: Option<f64>) -> PyResult<Tape> {
         let input = Input { name: key, text };
         let read = System::read_with(self.form, &self.text, &[], input);
         let (system, parts) = read.map_err(|error| errors::definition(&error))?;
@@ -266,7 +279,7 @@ impl Problem {
                 count => format!("`{text}` has {count} components: give one of them"),
             }));
         };
-        Tape::of_value(&system, &self.values, part, Some(self.start)).map_err(|refusal| {
+        Tape::of_value(&system, &self.values, part, start).map_err(|refusal| {
             let last = self.values.bodies.saturating_sub(1);
             errors::argument(match refusal {
                 Refusal::TooLong => format!("`{text}`: {refusal}"),

@@ -3,11 +3,13 @@
 use std::ops::ControlFlow;
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::output::Moment;
+use symplectic::stepper::RemainingSteps;
 use symplectic::system::Class;
 use symplectic::{Compensated, Error, Hamiltonian, Integrator, Method as Steps, State, Statistics};
 use symplectic_tape::{Formula, Parameters, Tapes};
@@ -82,6 +84,8 @@ pub(crate) struct Seen {
     pub(crate) events: Rows,
     /// The number of the event of each row of `events`.
     pub(crate) indices: Vec<u32>,
+    /// Whether there are more events than may be kept.
+    pub(crate) is_full: bool,
 }
 
 /// Where a run goes, and what is written on the way.
@@ -92,6 +96,7 @@ pub(crate) struct Plan<'a> {
     pub(crate) tapes: &'a Tapes,
     /// The largest number of states at events.
     pub(crate) most: usize,
+    pub(crate) pulse: &'a Pulse,
 }
 
 impl Plan<'_> {
@@ -131,11 +136,15 @@ impl Plan<'_> {
             let (index, state) = match moment {
                 Moment::Output(state) => {
                     seen.output.add(state, with);
-                    return ControlFlow::Continue(());
+                    return match self.pulse.is_stopped() {
+                        true => ControlFlow::Break(()),
+                        false => ControlFlow::Continue(()),
+                    };
                 }
                 Moment::Event { index, state } => (index, state),
             };
             if seen.indices.len() >= self.most {
+                seen.is_full = true;
                 return ControlFlow::Break(());
             }
             seen.events.add(state, with);
@@ -173,22 +182,16 @@ where
     let mut remaining = run.steps_to_time(end)?;
     let stride = remaining.left().div_ceil(intervals as u64).max(1);
     let mut times = vec![run.state().time];
-    let mut step = 0;
-    while let Some((_, time)) = remaining.next() {
+    while remaining.left() > 0 {
+        remaining.skip(stride.min(remaining.left()) - 1);
+        times.extend(remaining.next().map(|(_, time)| time));
         remaining.tick();
-        step += 1;
-        if step % stride == 0 || remaining.left() == 0 {
-            times.push(time);
-        }
     }
     Ok(times)
 }
 
 /// Integrates each trajectory alone.
-pub(crate) struct OneByOne<'a> {
-    pub(crate) plan: Plan<'a>,
-    pub(crate) pulse: &'a Pulse,
-}
+pub(crate) struct OneByOne<'a>(pub(crate) Plan<'a>);
 
 impl Work for OneByOne<'_> {
     type Output = Vec<Row<Vector, Seen>>;
@@ -204,18 +207,30 @@ impl Work for OneByOne<'_> {
         N: Solver<Vector, Formula<C, F>>,
     {
         let mut rows = Vec::new();
-        let work = |seen: &mut Seen, run: &mut _| self.plan.walk(seen, run);
+        let work = |seen: &mut Seen, run: &mut _| self.0.walk(seen, run);
         ensemble.each(
             |_| Seen::default(),
             work,
             |row| {
-                let finished = &self.pulse.finished;
+                let finished = &self.0.pulse.finished;
                 finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 rows.push(row);
                 ControlFlow::Continue(())
             },
         );
         rows
+    }
+}
+
+/// Checks that states in rows fit into memory.
+pub(crate) fn reserve(rows: usize, dimension: usize) -> PyResult<()> {
+    let numbers = rows.checked_mul(2 * dimension + 1);
+    let fits = numbers.is_some_and(|numbers| Vec::<f64>::new().try_reserve_exact(numbers).is_ok());
+    match fits {
+        true => Ok(()),
+        false => Err(PyMemoryError::new_err(
+            "the output does not fit into memory: give fewer times, or write a file with `run_file`",
+        )),
     }
 }
 
@@ -271,17 +286,29 @@ pub(crate) fn integrate<'py>(
         varied: varied.as_slice()?,
         count: 1,
     };
-    let job = Job::new(problem, method, &setting, starts, end)?;
-    let work = OneByOne {
-        plan: Plan {
-            end,
-            output: &output,
-            events: &events,
-            tapes: &problem.tapes,
-            most: usize::MAX,
-        },
-        pulse: &job.pulse,
+    let outputs = match &output {
+        Output::Times(times) => times.len(),
+        Output::Steps(most) => {
+            let remaining = RemainingSteps::between(time, end, setting.step);
+            let steps = remaining.map_or(0, |remaining| remaining.left());
+            (*most).min(
+                usize::try_from(steps)
+                    .unwrap_or(usize::MAX)
+                    .saturating_add(1),
+            )
+        }
     };
+    reserve(outputs, problem.dimension)?;
+    let effort = (end, events.looks(), outputs);
+    let job = Job::new(problem, method, &setting, starts, effort)?;
+    let work = OneByOne(Plan {
+        end,
+        output: &output,
+        events: &events,
+        tapes: &problem.tapes,
+        most: usize::MAX,
+        pulse: &job.pulse,
+    });
     let (rows, interrupted) = guarded(py, &job.pulse, progress.as_ref(), || job.run(work))?;
     let row = rows?.pop();
     let found = PyDict::new(py);
@@ -315,6 +342,11 @@ pub(crate) fn integrate<'py>(
     found.set_item("statistics", statistics(py, &counts)?)?;
     // Whether an event ended it.
     found.set_item("ended", outcome.is_ok() && state.time != end)?;
+    let remaining = RemainingSteps::between(time, end, setting.step);
+    let size = remaining
+        .ok()
+        .and_then(|remaining| Some(remaining.next()?.0));
+    found.set_item("step", size.unwrap_or(setting.step))?;
     let error = outcome.err().filter(|_| interrupted.is_none());
     found.set_item(
         "error",

@@ -25,7 +25,9 @@ pub(crate) struct Pulse {
     /// Whether the run ends before anybody could stop it: it needs no thread of its own.
     is_short: bool,
     stopped: AtomicBool,
-    /// The largest elapsed time of a trajectory, as bits; they are ordered as the numbers are.
+    /// Whether the elapsed time is shown: that of a single trajectory.
+    is_shown: AtomicBool,
+    /// The elapsed time, as bits.
     elapsed: AtomicU64,
     /// The number of trajectories that are finished.
     pub(crate) finished: AtomicU64,
@@ -56,8 +58,9 @@ impl Watch for Pulse {
     }
 
     fn goes_on(&self, elapsed: f64, _trajectories: usize) -> bool {
-        // Only the thread of a single run writes often; in ensembles the finished trajectories count.
-        self.elapsed.store(elapsed.to_bits(), Ordering::Relaxed);
+        if self.is_shown.load(Ordering::Relaxed) {
+            self.elapsed.store(elapsed.to_bits(), Ordering::Relaxed);
+        }
         !self.is_stopped()
     }
 }
@@ -78,6 +81,7 @@ pub(crate) fn guarded<T: Send>(
         return Ok((done.map_err(|_| lost())?, None));
     }
     let progress = progress.map(|function| function.clone().unbind());
+    pulse.is_shown.store(progress.is_some(), Ordering::Relaxed);
     let (done, interrupted) = py.detach(|| {
         let (sender, receiver) = channel();
         let mut interrupted = None;

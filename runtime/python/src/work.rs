@@ -1,7 +1,7 @@
 //! From a problem and a method to an ensemble of the right type.
 
 use std::marker::PhantomData;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use pyo3::prelude::*;
 use symplectic::at_run_time::RunTimeTableau;
@@ -31,7 +31,7 @@ type Project<C> = fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, Error>
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Setting {
-    step: f64,
+    pub(crate) step: f64,
     newton: bool,
     accept_lower_order: bool,
     project: bool,
@@ -117,18 +117,20 @@ impl From<Failure> for PyErr {
 pub(crate) struct Job<'a> {
     pub(crate) problem: &'a Problem,
     pub(crate) method: RunTimeTableau,
+    is_proved: bool,
     pub(crate) setting: &'a Setting,
     pub(crate) starts: Starts<'a>,
     pub(crate) pulse: Arc<Pulse>,
 }
 
 impl<'a> Job<'a> {
+    /// A job to an end, with a number of looks into every step and of states that are written.
     pub(crate) fn new(
         problem: &'a Problem,
         method: &Method,
         setting: &'a Setting,
         starts: Starts<'a>,
-        end: f64,
+        (end, looks, outputs): (f64, f64, usize),
     ) -> PyResult<Self> {
         let (dimension, width) = (problem.dimension, problem.varied);
         let Starts {
@@ -155,31 +157,36 @@ impl<'a> Job<'a> {
                 "steps with constraints have an iteration of their own: leave out `solver`",
             ));
         }
-        if setting.newton && problem.kind.is_separable && method.0.is_explicit() {
+        if setting.newton && problem.kind.is_separable && method.tableau.is_explicit() {
             return Err(errors::argument(format!(
                 "`{}` is explicit for this H, so its stages need no iteration: leave out `solver`, or take an implicit method",
-                method.0.name()
+                method.tableau.name()
             )));
         }
-        let orders = method.0.orders();
+        let orders = method.tableau.orders();
         if problem.tapes.has_friction()
             && orders.nystrom > orders.separable
             && !setting.accept_lower_order
         {
             return Err(errors::argument(format!(
                 "`{}` has order {} without friction, but only {} with it: take another method, or `accept_lower_order=True`",
-                method.0.name(),
+                method.tableau.name(),
                 orders.nystrom,
                 orders.separable
             )));
         }
-        // Coupled stages take some sweeps.
-        let evaluations = (end - time).abs() / setting.step.abs() * (4 * method.0.stages()) as f64;
-        let operations = evaluations * count as f64 * problem.tapes.operations() as f64;
+        // Coupled stages take some sweeps. Newton's iteration also solves linear systems.
+        let stages = 4.0 * method.tableau.stages() as f64;
+        let steps = ((end - time) / setting.step).abs() * (1.0 + looks) + outputs as f64;
+        let operations = match setting.newton || count > 1 {
+            true => f64::INFINITY,
+            false => steps * stages * problem.tapes.operations() as f64,
+        };
         let pulse = Pulse::new(time, operations);
-        let tableau = method.0.clone();
+        let tableau = method.tableau.clone();
         Ok(Job {
             problem,
+            is_proved: method.is_proved,
             method: match setting.accept_lower_order {
                 true => tableau.accept_lower_order(),
                 false => tableau,
@@ -208,8 +215,12 @@ impl<'a> Job<'a> {
         &self,
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> Result<T, Failure> {
-        let Some(threads) = self.setting.threads else {
-            return work();
+        // The threads of all work stay in the process that started them.
+        static FIRST: OnceLock<u32> = OnceLock::new();
+        let is_forked = *FIRST.get_or_init(std::process::id) != std::process::id();
+        let threads = match self.setting.threads {
+            None if self.starts.count == 1 || !is_forked => return work(),
+            threads => threads.unwrap_or_default(),
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build();
@@ -248,7 +259,8 @@ impl<'a> Job<'a> {
     /// The method, if it is compiled into this module for the kind of system.
     fn emitted(&self) -> Option<Emitted> {
         let kind = self.problem.kind;
-        let is_plain = kind.holonomic.is_none() && !kind.is_forced && !self.setting.newton;
+        let is_plain =
+            self.is_proved && kind.holonomic.is_none() && !kind.is_forced && !self.setting.newton;
         is_plain.then(|| Emitted::of(&self.method)).flatten()
     }
 

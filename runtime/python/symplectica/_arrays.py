@@ -14,13 +14,14 @@ Array = npt.NDArray[np.float64]
 
 
 def numbers(value: Any, key: str) -> Array:
-    """An array of finite doubles."""
+    """An array of finite doubles: a copy that nobody changes."""
     try:
-        array = np.asarray(value, dtype=np.float64)
+        array = np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError):
         raise ArgumentError(f"`{key}`: expected numbers, found {_found(value)}") from None
     if not np.isfinite(array).all():
         raise ArgumentError(f"`{key}` contains a number that is not finite")
+    array.flags.writeable = False
     return array
 
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ._arrays import Array
 from ._errors import ArgumentError
 from ._events import States
-from ._files import save
+from ._files import parameter_facts, save
 from ._tableau import Doubles, Tableau
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Failure:
     kind: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ensemble:
     """Many trajectories.
 
@@ -104,10 +104,12 @@ class Ensemble:
             section = parts
         _, _, _, _, q0, p0, table = base
         has_output = "q" in found
+        # An interrupted run has fewer trajectories.
+        rows = len(end)
         return cls(
             found["t"] if has_output else end.t,
-            shaped(found["q"]) if has_output else end.q,
-            shaped(found["p"]) if has_output else end.p,
+            shaped(found["q"][:rows]) if has_output else end.q,
+            shaped(found["p"][:rows]) if has_output else end.p,
             end,
             section,
             found.get("megno"),
@@ -189,7 +191,8 @@ class Ensemble:
             arrays["section_count"] = np.array([len(states) for states in self.section])
             for key in ("t", "q", "p"):
                 arrays[f"section_{key}"] = np.concatenate([getattr(states, key) for states in self.section])
-        save(path, arrays, {"formula": self.system.text, "method": self.method.name or "", "step": self.step}, self.to_pandas)
+        facts = {"formula": self.system.text, "method": self.method.name or "", "step": self.step, **parameter_facts({**self._same, **self._varied})}
+        save(path, arrays, facts, self.to_pandas)
 
     def plot(self, x: str | None = None, y: str | None = None, ax: Any = None) -> Any:
         """A picture with matplotlib: the section, or the last states, in the plane of two coordinates.

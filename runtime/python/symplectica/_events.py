@@ -28,7 +28,7 @@ class Event:
     set : dict
         New values of coordinates at the event, from the state before: ``{"py": "-0.8 py"}``.
     samples : int, optional
-        Evaluate the expression at this number of points in every step, if it varies much faster than the motion.
+        Evaluate the expression at this number of points in every step, at most 10 000, if it varies much faster than the motion.
 
     Notes
     -----
@@ -59,12 +59,12 @@ class Event:
         last = None
         if self.terminal is not False:
             last = 1 if self.terminal is True else _arrays.count(self.terminal, "terminal", 1)
-        samples = None if self.samples is None else min(_arrays.count(self.samples, "samples", 1), 1 << 20)
+        samples = None if self.samples is None else _arrays.count(self.samples, "samples", 1, 10_000)
         changes = [(str(name), str(value)) for name, value in self.set.items()]
         return (self.of, str(self.direction), bool(self.wall), samples, changes, last)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class States:
     """States at events, or of a section.
 

@@ -34,6 +34,11 @@ def save(path: str | Path, arrays: Mapping[str, Any], facts: Mapping[str, Any], 
         raise ArgumentError(f"the name of the file `{path}` must end in .npz, .h5, .parquet or .csv")
 
 
+def parameter_facts(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of parameters by the names that they have in files."""
+    return {f"parameter_{name}": value for name, value in parameters.items()}
+
+
 def run_file(path: str | Path, *, threads: int | None = None, shard: tuple[int, int] | None = None, resume: bool = False) -> str:
     """Integrates the ensemble of a setup file in TOML and writes its results to NPZ, Parquet or CSV, as ``symplectic run`` does.
 
@@ -64,6 +69,8 @@ def run_file(path: str | Path, *, threads: int | None = None, shard: tuple[int, 
     if threads is not None:
         arguments += ["--threads", str(_arrays.count(threads, "threads", 1))]
     if shard is not None:
+        if not isinstance(shard, tuple) or len(shard) != 2:
+            raise ArgumentError(f"`shard` must be (part, number of parts), such as (0, 4), found {shard!r}")
         arguments += ["--shard", f"{shard[0]}/{shard[1]}"]
     if resume:
         arguments.append("--resume")

@@ -122,7 +122,8 @@ class _Stages:
         # A stage that nothing depends on is not evaluated.
         self._nodes = [(half, j) for half, j in self._nodes if self._b[half][j] or self._a[half][:, j].any()]
         self._hides = system.separable
-        self._c = method.a.sum(axis=1)
+        # Velocities are at t0 + c̃h, forces at t0 + ch.
+        self._c = (method.a_tilde.sum(axis=1), method.a.sum(axis=1))
         self._slopes = np.zeros((2, len(method.b), int(np.prod(shape))))
         self.counts = {"iterations": 0, "most_iterations": 0, "evaluations": 0}
 
@@ -131,7 +132,7 @@ class _Stages:
         if self._hides:
             # The velocity of a separable system does not see the positions: NaN would show.
             arguments[half] = np.full(self._shape, np.nan)
-        found = np.asarray(self._functions[half](time + self._c[j] * self._h, *arguments), dtype=float)
+        found = np.asarray(self._functions[half](time + self._c[half][j] * self._h, *arguments), dtype=float)
         if found.shape != self._shape:
             raise ArgumentError(f"`{('velocity', 'force')[half]}` returned the shape {found.shape}, expected {self._shape}")
         self.counts["evaluations"] += 1

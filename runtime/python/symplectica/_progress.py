@@ -23,9 +23,10 @@ class Progress:
         done = finished / self._trajectories if self._trajectories else elapsed / abs(self._length) if self._length else 1.0
         self._show(min(max(done, 0.0), 1.0))
 
-    def end(self) -> None:
-        """The run has reached its end."""
-        self._show(1.0)
+    def end(self, complete: bool) -> None:
+        """The run has ended."""
+        if complete:
+            self._show(1.0)
         if self._bar is not None:
             self._bar.end()
 

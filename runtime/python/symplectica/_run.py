@@ -12,14 +12,14 @@ import numpy as np
 from ._arrays import Array
 from ._errors import ArgumentError
 from ._events import Events, States
-from ._files import save
+from ._files import parameter_facts, save
 from ._tableau import Doubles, Tableau
 
 if TYPE_CHECKING:
     from ._system import System
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """A trajectory.
 
@@ -38,7 +38,7 @@ class Run:
     system : System
     method : Tableau or Doubles
     step : float
-        The step size.
+        The size of the equal steps to the end: at most the one that was asked for.
     start : (float, ndarray, ndarray)
         The state at the start.
     """
@@ -72,10 +72,10 @@ class Run:
         rows = found["t"], shaped(found["q"]), shaped(found["p"])
         if len(rows[0]) == 0:
             rows = np.array([time]), state[1][None], state[2][None]
-        elif found["ended"] and rows[0][-1] != time:
-            # An event ended the run: its state is the last one.
+        elif (found["ended"] or found["error"] is not None or found["interrupted"] is not None) and (time - rows[0][-1]) * setting["step"] > 0:
+            # The run ended before its end: the last state is that of the event, or of the last full step.
             rows = np.append(rows[0], time), np.append(rows[1], state[1][None], axis=0), np.append(rows[2], state[2][None], axis=0)
-        return cls(*rows, state, Events(names, events, texts), found["statistics"], system, method, setting["step"], (start, q0, p0), setting)
+        return cls(*rows, state, Events(names, events, texts), found["statistics"], system, method, found["step"], (start, q0, p0), setting)
 
     @property
     def dimension(self) -> int:
@@ -151,27 +151,28 @@ class Run:
     @cached_property
     def state_transition(self) -> Array:
         """∂(q, p)(end)/∂(q, p)(start), shape (2d, 2d), by the variational equations of the method: see :meth:`System.state_transition`."""
-        time, q, p = self.start
-        if len(self.events) and any(len(states) for states in self.events.values()):
-            raise ArgumentError("the state transition is that of a run without events")
-        _, _, derivative = self.system.state_transition(
-            q,
-            p,
-            t=self.state[0],
-            t0=time,
-            step=abs(self.step),
-            method=self.method,
-            solver="newton" if self._setting["newton"] else None,
-            accept_lower_order=self._setting["accept_lower_order"],
-        )
+        _, _, derivative = self.system.state_transition(**self._again())
         return derivative
+
+    def _again(self) -> dict[str, Any]:
+        """The arguments of a run with derivatives."""
+        if any(len(states) for states in self.events.values()):
+            raise ArgumentError("derivatives are those of runs without events")
+        time, q, p = self.start
+        return {
+            "q": q,
+            "p": p,
+            "t": self.state[0],
+            "t0": time,
+            "step": abs(self.step),
+            "method": self.method,
+            "solver": "newton" if self._setting["newton"] else None,
+            "accept_lower_order": self._setting["accept_lower_order"],
+        }
 
     def parameter_derivatives(self, *names: str) -> dict[str, Array]:
         """The derivatives of the end by parameters: see :meth:`System.parameter_derivatives`."""
-        time, q, p = self.start
-        return self.system.parameter_derivatives(
-            *names, q=q, p=p, t=self.state[0], t0=time, step=abs(self.step), method=self.method, accept_lower_order=self._setting["accept_lower_order"]
-        )
+        return self.system.parameter_derivatives(*names, **self._again())
 
     @property
     def columns(self) -> list[str]:
@@ -197,7 +198,7 @@ class Run:
             A name that ends in ``.npz`` (NumPy), ``.h5`` (HDF5, with h5py), ``.parquet`` or ``.csv`` (a table, with pandas).
         """
         arrays = {"t": self.t, "q": self.q, "p": self.p, "energy_error": self.energy_error}
-        facts = {"formula": self.system.text, "method": self.method.name or "", "step": self.step}
+        facts = {"formula": self.system.text, "method": self.method.name or "", "step": self.step, **parameter_facts(self.system.parameters)}
         save(path, arrays, facts, self.to_pandas)
 
     def plot(self, kind: str | None = None, ax: Any = None) -> Any:

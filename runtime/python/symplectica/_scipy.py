@@ -244,7 +244,7 @@ def solve_ivp(
         if callable(fun):
             raise ArgumentError(
                 "found a Python function, expected a system: write the formula of H, `system('q: [x], p: [px]; H = px^2/2 + x^2/2')`, and it runs as "
-                "compiled code; `python_function(velocity, force)` calls Python functions, some hundred times slower"
+                "compiled code; `python_function(velocity, force)` calls Python functions, about a thousand times slower"
             )
         raise ArgumentError(f"found {type(fun).__name__}, expected a system or the text of a formula")
     _check_options(options)

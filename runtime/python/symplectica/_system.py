@@ -84,7 +84,7 @@ class System:
     @property
     def parameters(self) -> dict[str, Any]:
         """The values of the parameters that are set."""
-        return {name: value.item() if value.ndim == 0 else value for name, value in self._parameters.items()}
+        return {name: value.item() if value.ndim == 0 else value.copy() for name, value in self._parameters.items()}
 
     @property
     def parameter_names(self) -> list[str]:
@@ -184,7 +184,7 @@ class System:
         if (refusal := self._native.refusal) is not None:
             raise ArgumentError(f"runs in Python do not support {refusal}: write a program with the macros, as the book describes")
         values = {name: value for name, value in {**self._parameters, **parameters}.items() if name not in varied}
-        arrays = {name: _arrays.numbers(value, name) for name, value in values.items()}
+        arrays = {name: value if isinstance(value, np.ndarray) and not value.flags.writeable else _arrays.numbers(value, name) for name, value in values.items()}
         shapes = {name: array.shape[1:] for name, array in varied.items()}
         from_ = start if self._native.has_friction else 0.0
         key = (dimension, from_, tuple((name, array.shape, array.tobytes()) for name, array in arrays.items()), tuple(shapes.items()))
@@ -352,13 +352,13 @@ class System:
         )
         texts = [event[0] for event in given]
         run = Run._of(self.with_parameters(**values) if values else self, made, q0, p0, start, setting, names, texts, found)
+        if bar is not None:
+            bar.end(found["error"] is None and found["interrupted"] is None)
         if (signal := found["interrupted"]) is not None:
             raise _interrupted(signal, run) from None
         if (error := found["error"]) is not None:
             error.run = run
             raise error
-        if bar is not None:
-            bar.end()
         changes = any(event[4] for event in given)
         if problem.energy_is_conserved and not changes and not abs(error := run._last_energy_error) < _LARGE:
             warnings.warn(f"the energy error at the end is {error:.1e}: take a smaller step or another method", stacklevel=2)
@@ -403,7 +403,7 @@ class System:
         if output is None:
             return _ROWS
         if isinstance(output, (int, np.integer, bool)):
-            return _arrays.count(output, "output")
+            return _arrays.count(output, "output", 0, 10**9)
         return _times(output, start, end)
 
     def ensemble(
@@ -473,7 +473,7 @@ class System:
         if q0.ndim < 2:
             raise ArgumentError(f"`q` has the shape {q0.shape}; the starts of an ensemble have a first axis for the trajectories")
         values = {name: _arrays.numbers(value, name) for name, value in _arrays.named(parameters).items()}
-        trajectories = q0.shape[0] if q0.shape[0] != 1 else self._varied_length(values)
+        trajectories = q0.shape[0] if q0.shape[0] != 1 else self._varied_length({**self._parameters, **values})
         if trajectories > q0.shape[0]:
             q0, p0 = (np.repeat(half, trajectories, axis=0) for half in (q0, p0))
         shape = q0.shape[1:]
@@ -508,15 +508,15 @@ class System:
             if isinstance(output, (int, np.integer)):
                 raise ArgumentError("`output` of an ensemble is a list of times, such as numpy.linspace(0, 10, 101)")
             times = [] if output is None else _times(output, start, end)
-            self._warn_of_times(times, start, setting["step"], steps)
+            self._warn_of_times(times, start, (end - start) / max(np.ceil(abs((end - start) / setting["step"]) * (1 - 1e-12)), 1.0), steps)
             found = _native.ensemble(*base, end, times, bar)
             if output is not None:
                 found["t"] = np.array(times)
         result = Ensemble._of(self, made, shape, start, setting, base, names, same, varied, found)
+        if bar is not None:
+            bar.end(found["interrupted"] is None)
         if (signal := found["interrupted"]) is not None:
             raise _interrupted(signal, result) from None
-        if bar is not None:
-            bar.end()
         return result
 
     def _varied_length(self, parameters: Mapping[str, Array]) -> int:
@@ -533,7 +533,7 @@ class System:
         if inside and order > 4:
             warnings.warn(
                 f"{inside} of the times in `output` are inside steps, where an ensemble interpolates with order 4; the method has order {order} "
-                "at multiples of `step`",
+                "at ends of steps",
                 stacklevel=3,
             )
 

@@ -64,7 +64,11 @@ pub struct RemainingSteps {
 
 impl RemainingSteps {
     /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`.
-    pub(crate) fn between(start: f64, end: f64, step_size: f64) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepCount`] and [`Error::EndTime`].
+    pub fn between(start: f64, end: f64, step_size: f64) -> Result<Self, Error> {
         let (left, size) = uniform(start, end, step_size)?;
         Ok(Self::of_size(left, size, start, end))
     }
@@ -103,7 +107,8 @@ impl RemainingSteps {
         self.skip(1);
     }
 
-    pub(crate) const fn skip(&mut self, steps: u64) {
+    /// Counts the next steps as taken.
+    pub const fn skip(&mut self, steps: u64) {
         self.left = self.left.saturating_sub(steps);
         self.alone = self.alone.saturating_sub(steps);
         self.clock.skip(steps);
