@@ -23,7 +23,7 @@ use crate::method::Method;
 use crate::problem::Problem;
 use crate::single::{OneByOne, Output, Plan, Seen, reserve};
 use crate::watch::{Pulse, guarded};
-use crate::work::{Failure, Families, FreeWork, Job, Setting, Starts, Vector, Work};
+use crate::work::{Effort, Failure, Families, FreeWork, Job, Setting, Starts, Vector, Work};
 
 /// The largest number of states at events of all trajectories.
 const MOST_EVENTS: usize = 100_000_000;
@@ -231,7 +231,7 @@ pub(crate) fn ensemble<'py>(
             seen.push(end);
         }
     }
-    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
+    let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     // A state that is not reached stays NaN.
     let (mut all_q, mut all_p) = (vec![f64::NAN; size], vec![f64::NAN; size]);
     let chunks = all_q.chunks_exact_mut(width.max(1));
@@ -284,7 +284,7 @@ pub(crate) fn section<'py>(
         varied: varied.as_slice()?,
         count,
     };
-    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
+    let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let output = Output::Steps(0);
     let most = MOST_EVENTS / count.max(1);
     let work = OneByOne(Plan {
@@ -526,7 +526,7 @@ pub(crate) fn chaos<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
+    let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Chaos {
@@ -570,7 +570,7 @@ pub(crate) fn transition<'py>(
         varied: varied.as_slice()?,
         count: q.as_array().nrows(),
     };
-    let job = Job::new(problem, method, &setting, starts, (end, 0.0, 0))?;
+    let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
         work: Follow {

@@ -19,7 +19,7 @@ use crate::events::{Events, Given};
 use crate::method::Method;
 use crate::problem::Problem;
 use crate::watch::{Pulse, guarded};
-use crate::work::{Job, Setting, Starts, Vector, Work};
+use crate::work::{Effort, Job, Setting, Starts, Vector, Work};
 
 /// When states are written.
 #[derive(FromPyObject)]
@@ -299,7 +299,12 @@ pub(crate) fn integrate<'py>(
         }
     };
     reserve(outputs, problem.dimension)?;
-    let effort = (end, events.looks(), outputs);
+    let effort = Effort {
+        end,
+        looks: events.looks(),
+        outputs,
+        is_shown: progress.is_some(),
+    };
     let job = Job::new(problem, method, &setting, starts, effort)?;
     let work = OneByOne(Plan {
         end,

@@ -18,16 +18,15 @@ const INTERVAL: Duration = Duration::from_millis(40);
 /// Operations that take less than a few milliseconds.
 const SHORT: f64 = 1e6;
 
-/// Sees the evaluations of a run and stops it.
+/// Stops a run, and sees how far it is.
 #[derive(Debug, Default)]
 pub(crate) struct Pulse {
     start: f64,
     /// Whether the run ends before anybody could stop it: it needs no thread of its own.
     is_short: bool,
-    stopped: AtomicBool,
-    /// Whether the elapsed time is shown: that of a single trajectory.
-    is_shown: AtomicBool,
-    /// The elapsed time, as bits.
+    /// Whether the run is to end.
+    pub(crate) stop: Arc<AtomicBool>,
+    /// The time since the start of a single trajectory, as bits.
     elapsed: AtomicU64,
     /// The number of trajectories that are finished.
     pub(crate) finished: AtomicU64,
@@ -44,7 +43,7 @@ impl Pulse {
     }
 
     pub(crate) fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Relaxed)
+        self.stop.load(Ordering::Relaxed)
     }
 
     fn elapsed(&self) -> f64 {
@@ -57,11 +56,8 @@ impl Watch for Pulse {
         self.start
     }
 
-    fn goes_on(&self, elapsed: f64, _trajectories: usize) -> bool {
-        if self.is_shown.load(Ordering::Relaxed) {
-            self.elapsed.store(elapsed.to_bits(), Ordering::Relaxed);
-        }
-        !self.is_stopped()
+    fn evaluated(&self, elapsed: f64, _trajectories: usize) {
+        self.elapsed.store(elapsed.to_bits(), Ordering::Relaxed);
     }
 }
 
@@ -81,7 +77,6 @@ pub(crate) fn guarded<T: Send>(
         return Ok((done.map_err(|_| lost())?, None));
     }
     let progress = progress.map(|function| function.clone().unbind());
-    pulse.is_shown.store(progress.is_some(), Ordering::Relaxed);
     let (done, interrupted) = py.detach(|| {
         let (sender, receiver) = channel();
         let mut interrupted = None;
@@ -106,7 +101,7 @@ pub(crate) fn guarded<T: Send>(
                             Ok(())
                         });
                         if let Err(error) = asked {
-                            pulse.stopped.store(true, Ordering::Relaxed);
+                            pulse.stop.store(true, Ordering::Relaxed);
                             interrupted = Some(error);
                         }
                     }

@@ -113,6 +113,28 @@ impl From<Failure> for PyErr {
     }
 }
 
+/// How far a run goes, and what is done beside its steps.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Effort {
+    pub(crate) end: f64,
+    /// The number of looks into every step.
+    pub(crate) looks: f64,
+    /// The number of states that are written.
+    pub(crate) outputs: usize,
+    /// Whether the progress is shown.
+    pub(crate) is_shown: bool,
+}
+
+impl Effort {
+    /// Steps to an end.
+    pub(crate) fn to(end: f64) -> Self {
+        Effort {
+            end,
+            ..Effort::default()
+        }
+    }
+}
+
 /// All that decides a run.
 pub(crate) struct Job<'a> {
     pub(crate) problem: &'a Problem,
@@ -121,16 +143,21 @@ pub(crate) struct Job<'a> {
     pub(crate) setting: &'a Setting,
     pub(crate) starts: Starts<'a>,
     pub(crate) pulse: Arc<Pulse>,
+    is_shown: bool,
 }
 
 impl<'a> Job<'a> {
-    /// A job to an end, with a number of looks into every step and of states that are written.
     pub(crate) fn new(
         problem: &'a Problem,
         method: &Method,
         setting: &'a Setting,
         starts: Starts<'a>,
-        (end, looks, outputs): (f64, f64, usize),
+        Effort {
+            end,
+            looks,
+            outputs,
+            is_shown,
+        }: Effort,
     ) -> PyResult<Self> {
         let (dimension, width) = (problem.dimension, problem.varied);
         let Starts {
@@ -186,6 +213,7 @@ impl<'a> Job<'a> {
         let tableau = method.tableau.clone();
         Ok(Job {
             problem,
+            is_shown,
             is_proved: method.is_proved,
             method: match setting.accept_lower_order {
                 true => tableau.accept_lower_order(),
@@ -339,10 +367,17 @@ impl<'a> Job<'a> {
             match families.last_mut() {
                 Some((_, family)) if is_same => family.push(state),
                 _ => {
-                    let watch: Arc<dyn Watch> = Arc::<Pulse>::clone(&self.pulse);
                     let system =
                         Formula::new(Arc::clone(&self.problem.tapes), Parameters::from(own));
-                    families.push((system.watched(Some(watch)), vec![state]));
+                    // Of many trajectories the finished ones show the progress.
+                    let watch: Option<Arc<dyn Watch>> = match self.is_shown && count == 1 {
+                        true => Some(Arc::<Pulse>::clone(&self.pulse)),
+                        false => None,
+                    };
+                    let system = system
+                        .watched(watch)
+                        .stopped_by(Arc::clone(&self.pulse.stop));
+                    families.push((system, vec![state]));
                     last = Some(bits(own));
                 }
             }

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use symplectic::constraints::{
     Constrained, ConstraintName, Gradients, HolonomicConstraints, Nonholonomic,
@@ -171,14 +172,13 @@ fn stop<'a, T: Scalar>(vectors: impl IntoIterator<Item = &'a mut DVector<T>>) {
     }
 }
 
-/// What sees the evaluations of a system, such as a display of the progress, and may stop a run.
+/// What sees the evaluations of a system, such as a display of the progress.
 pub trait Watch: Debug + Send + Sync {
     /// The time of the starts.
     fn start(&self) -> f64;
 
-    /// The force of a number of trajectories is evaluated on this thread, at a time since the start. If the run is not to go on, the force
-    /// is NaN, and the step fails.
-    fn goes_on(&self, elapsed: f64, trajectories: usize) -> bool;
+    /// The force of a number of trajectories was evaluated on this thread, at a time since the start.
+    fn evaluated(&self, elapsed: f64, trajectories: usize);
 }
 
 /// A system of class `C`, with an applied force if it is `FORCED`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
@@ -189,6 +189,7 @@ pub struct Formula<C, const FORCED: bool = false> {
     /// The number of trajectories.
     count: usize,
     watch: Option<Arc<dyn Watch>>,
+    stop: Option<Arc<AtomicBool>>,
     class: PhantomData<fn() -> C>,
 }
 
@@ -201,6 +202,7 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
             parameters,
             count: 1,
             watch: None,
+            stop: None,
             class: PhantomData,
         }
     }
@@ -208,6 +210,14 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
     /// The same system, whose evaluations are watched.
     pub fn watched(self, watch: Option<Arc<dyn Watch>>) -> Self {
         Formula { watch, ..self }
+    }
+
+    /// The same system, whose runs end as soon as the flag is set: forces are then NaN, so that the step fails.
+    pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
+        Formula {
+            stop: Some(stop),
+            ..self
+        }
     }
 
     #[inline(always)]
@@ -222,10 +232,12 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
 
     #[inline(always)]
     fn goes_on<T: Scalar>(&self, time: T) -> bool {
-        self.watch.as_ref().is_none_or(|watch| {
+        if let Some(watch) = &self.watch {
             let elapsed = time - T::from_f64(watch.start());
-            watch.goes_on(elapsed.magnitude(), self.count)
-        })
+            watch.evaluated(elapsed.magnitude(), self.count);
+        }
+        let stop = self.stop.as_ref();
+        !stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     /// The constraints, if they are holonomic or not as wanted.
@@ -252,6 +264,7 @@ impl<C, const FORCED: bool> Clone for Formula<C, FORCED> {
             parameters: self.parameters.clone(),
             count: self.count,
             watch: self.watch.clone(),
+            stop: self.stop.clone(),
             class: PhantomData,
         }
     }

@@ -1,7 +1,7 @@
-//! What sees the evaluations of a formula may stop a run.
+//! Runs of formulas can be stopped.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use symplectic::at_run_time::RunTimeTableau;
 use symplectic::nalgebra::DVector;
@@ -14,20 +14,20 @@ symplectic::tableau! {
     Gauss2 { base: gauss-2 }
 }
 
-/// Stops a run after a number of evaluations.
+/// Sets a flag after a number of evaluations.
 #[derive(Debug)]
-struct Counting(AtomicU64);
+struct Counting(AtomicU64, Arc<AtomicBool>);
 
 impl Watch for Counting {
     fn start(&self) -> f64 {
         0.0
     }
 
-    fn goes_on(&self, elapsed: f64, trajectories: usize) -> bool {
+    fn evaluated(&self, elapsed: f64, trajectories: usize) {
         assert!(elapsed >= 0.0 && trajectories == 1);
         let left = self.0.load(Ordering::Relaxed);
         self.0.store(left.saturating_sub(1), Ordering::Relaxed);
-        left > 0
+        self.1.store(left == 0, Ordering::Relaxed);
     }
 }
 
@@ -36,8 +36,11 @@ fn oscillator(evaluations: u64) -> Formula<Separable> {
     let mut system = System::read_as(Form::Hamiltonian, "the oscillator", text).expect("a formula");
     let structure = Structure::of(&mut system);
     let tapes = Tapes::new(&mut system, &structure, &Values::of_bodies(1), 0.0).expect("a tape");
-    let watch: Arc<dyn Watch> = Arc::new(Counting(AtomicU64::new(evaluations)));
-    Formula::new(Arc::new(tapes), Parameters::none()).watched(Some(watch))
+    let stop = Arc::new(AtomicBool::new(false));
+    let watch: Arc<dyn Watch> = Arc::new(Counting(AtomicU64::new(evaluations), Arc::clone(&stop)));
+    Formula::new(Arc::new(tapes), Parameters::none())
+        .watched(Some(watch))
+        .stopped_by(stop)
 }
 
 #[test]
