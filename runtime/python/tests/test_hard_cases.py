@@ -37,7 +37,7 @@ def test_a_forked_process_runs_after_its_parent_ran(kepler):
 
 
 def test_a_short_run_does_not_wait_for_an_ensemble(kepler):
-    thread = threading.Thread(target=lambda: kepler.ensemble([[0.4, 0]] * 64, [[0, 2]] * 64, t=3000, step=0.05, threads=None))
+    thread = threading.Thread(target=lambda: kepler.ensemble([[0.4, 0]] * 64, [[0, 2]] * 64, t=300, step=0.05))
     thread.start()
     time.sleep(0.1)
     before = time.monotonic()
@@ -71,7 +71,7 @@ except sy.Interrupted as caught:
 CALLS = {
     "many steps": ('kepler.integrate([0.4, 0], [0, 2], t=1e12, step=1e-2)', "assert found.t[-1] == found.state[0] > 0"),
     "many looks": ('kepler.integrate([0.4, 0], [0, 2], t=1e4, step=0.1, events=sy.Event("q[1]", samples=10_000))', "assert found.state[0] > 0"),
-    "many outputs": ("kepler.integrate([0.4, 0], [0, 2], t=1, step=0.1, output=np.linspace(0, 1, 3_000_000))", "assert 0 < found.t[-1] < 1 and (np.diff(found.t) > 0).all()"),
+    "many outputs": ("kepler.integrate([0.4, 0], [0, 2], t=1, step=0.1, output=np.linspace(0, 1, 3_000_000))", "assert 0 <= found.t[-1] < 1 and (np.diff(found.t) > 0).all()"),
     "newton": ('oscillator.integrate(np.ones(60), np.zeros(60), t=1000, step=0.1, method="gauss-2", solver="newton")', "assert found.state[0] < 1000"),
     "ensemble": (
         "kepler.ensemble([[0.4, 0]] * 3000, [[0, 2]] * 3000, t=1e4, step=0.05, output=[1e4])",
@@ -92,8 +92,9 @@ def test_ctrl_c_stops_every_kind_of_run(name):
 
 
 def test_output_that_does_not_fit_into_memory_is_refused(kepler):
-    with pytest.raises((MemoryError, sy.ArgumentError)):
-        kepler.ensemble(np.ones((3 * 10**4, 2)), np.ones((3 * 10**4, 2)), t=1, step=0.1, output=np.linspace(0, 1, 10**8))
+    many = np.ones((3 * 10**4, 2))
+    with pytest.raises(MemoryError, match="give fewer times"):
+        kepler.ensemble(many, many, t=1, step=0.1, method="gauss-2", output=np.linspace(0, 1, 10**6))
     with pytest.raises(sy.ArgumentError, match="from 0 to 1000000000"):
         kepler.integrate([0.4, 0], [0, 2], t=1, step=0.1, output=10**10)
 
