@@ -210,7 +210,7 @@ def rebound(scene: Scene) -> tuple[float, str] | None:
             simulation.add(m=1.0)
             simulation.add(m=0.0, x=0.4, vy=2.0)
         simulation.integrator = "ias15"
-        simulation.ri_ias15.epsilon = tolerance
+        simulation.integrator.epsilon = tolerance
         simulation.integrate(scene.end)
         places = [[b.x, b.y, b.z] for b in simulation.particles]
         if scene.masses:
