@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use symplectic_compiler::{Error, ErrorKind, Library, export};
 use symplectic_terminal::{errors, print};
-use symplectic_tools::{ImportOrigin, OwnNames, import_own, import_with_origin};
+use symplectic_tools::{OwnNames, import_own, import_with_origin};
 
 use crate::output::{self, OutputOptions};
 
@@ -103,30 +103,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             return Err(ErrorKind::Document { message }.into());
         }
     };
-    match origin {
-        ImportOrigin::Exact => {}
-        ImportOrigin::NearDecimals {
-            forced_by,
-            distance,
-        } => {
-            let forced_by = forced_by.map(|condition| {
-                format!("as they are written, the decimals do not have {condition}; ")
-            });
-            let distance = distance.map(|distance| {
-                format!(", from which the decimals differ by at most {distance:.1e}")
-            });
-            let distance = distance.unwrap_or_default();
-            errors::warning(&format!(
-                "{}the result is the exact method near the decimals{distance}",
-                forced_by.unwrap_or_default()
-            ));
-        }
-        ImportOrigin::Decimals { separable, nystrom } => {
-            errors::warning(&format!(
-                "no exact method was found near the decimals; they are taken as exact numbers; up to their rounding they have order \
-                 {separable} for T(p) + U(q), and {nystrom} for quadratic T"
-            ));
-        }
+    if let Some(note) = origin.note() {
+        errors::warning(&note);
     }
     if let Some(name) = &arguments.name {
         tableau = tableau.named(name);

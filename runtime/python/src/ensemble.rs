@@ -11,7 +11,6 @@ use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::solver::Newton;
-use symplectic::stepper::RemainingSteps;
 use symplectic::system::{Class, Conservative};
 use symplectic::tangent::{self, Megno, Tangent};
 use symplectic::{Compensated, Hamiltonian, Integrator, Method as Steps, State, Statistics};
@@ -205,15 +204,8 @@ pub(crate) fn ensemble<'py>(
     times: Vec<f64>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let count = q.as_array().nrows();
-    let varied = varied.as_slice()?;
-    let starts = Starts {
-        time,
-        q: q.as_slice()?,
-        p: p.as_slice()?,
-        varied,
-        count,
-    };
+    let starts = Starts::new(time, &q, &p, &varied)?;
+    let (count, varied) = (starts.count, starts.varied);
     let dimension = problem.dimension;
     let width = times.len() * dimension;
     let size = count.saturating_mul(width);
@@ -222,11 +214,7 @@ pub(crate) fn ensemble<'py>(
     let mut setting = setting;
     let mut seen = times.clone();
     if let Some(&last) = times.last() {
-        let remaining = RemainingSteps::between(time, end, setting.step);
-        let size = remaining
-            .ok()
-            .and_then(|remaining| Some(remaining.next()?.0));
-        setting.step = size.unwrap_or(setting.step);
+        setting.step = setting.size(time, end);
         if last != end {
             seen.push(end);
         }
@@ -276,14 +264,8 @@ pub(crate) fn section<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let events = Events::new(problem, events)?;
-    let count = q.as_array().nrows();
-    let starts = Starts {
-        time,
-        q: q.as_slice()?,
-        p: p.as_slice()?,
-        varied: varied.as_slice()?,
-        count,
-    };
+    let starts = Starts::new(time, &q, &p, &varied)?;
+    let count = starts.count;
     let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let output = Output::Steps(0);
     let most = MOST_EVENTS / count.max(1);
@@ -519,13 +501,7 @@ pub(crate) fn chaos<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     refuse_others(problem, "MEGNO")?;
-    let starts = Starts {
-        time,
-        q: q.as_slice()?,
-        p: p.as_slice()?,
-        varied: varied.as_slice()?,
-        count: q.as_array().nrows(),
-    };
+    let starts = Starts::new(time, &q, &p, &varied)?;
     let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,
@@ -563,13 +539,7 @@ pub(crate) fn transition<'py>(
     end: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     refuse_others(problem, "the state transition")?;
-    let starts = Starts {
-        time,
-        q: q.as_slice()?,
-        p: p.as_slice()?,
-        varied: varied.as_slice()?,
-        count: q.as_array().nrows(),
-    };
+    let starts = Starts::new(time, &q, &p, &varied)?;
     let job = Job::new(problem, method, &setting, starts, Effort::to(end))?;
     let work = Displaced {
         displacements: displacements.as_slice()?,

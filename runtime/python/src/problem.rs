@@ -5,7 +5,7 @@ use std::sync::Arc;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use symplectic::State;
-use symplectic::nalgebra::{DMatrix, DVector};
+use symplectic::nalgebra::DVector;
 use symplectic::output::unit_of;
 use symplectic_compiler::expression::Input;
 use symplectic_formula::graph::{Half, Id};
@@ -222,43 +222,32 @@ impl Problem {
     fn momentum(&self, t: f64, q: Vec<f64>, v: Vec<f64>, varied: Vec<f64>) -> PyResult<Vec<f64>> {
         self.check_state(&q, &v, &varied)?;
         let parameters = Parameters::from(varied.as_slice());
+        let Some(p) = self.tapes.momentum_of(&parameters, (t, &q), &v) else {
+            return Err(errors::argument(
+                "the masses are singular at this position: give momenta",
+            ));
+        };
         let velocity = |p: &[f64]| {
-            DVector::from_vec(self.tapes.velocity_at(At {
+            self.tapes.velocity_at(At {
                 parameters: &parameters,
                 time: t,
                 q: &q,
                 p,
-            }))
+            })
         };
-        let zeros = vec![0.0; q.len()];
-        let at_rest = velocity(&zeros);
-        let column = |k: usize| {
-            let mut unit = zeros.clone();
-            unit[k] = 1.0;
-            velocity(&unit) - &at_rest
+        let largest = |list: &[f64]| {
+            list.iter()
+                .fold(0.0, |largest: f64, x| largest.max(x.abs()))
         };
-        let columns: Vec<_> = (0..q.len()).map(column).collect();
-        let inverse_masses = DMatrix::from_columns(&columns).lu();
-        let wanted = DVector::from_column_slice(&v);
-        let mut p = DVector::zeros(q.len());
-        // The second time corrects rounding errors.
-        for _ in 0..2 {
-            let missing = &wanted - velocity(p.as_slice());
-            let Some(more) = inverse_masses.solve(&missing) else {
-                return Err(errors::argument(
-                    "the masses are singular at this position: give momenta",
-                ));
-            };
-            p += more;
-        }
-        let missing = (&wanted - velocity(p.as_slice())).amax();
-        let scale = wanted.amax().max(at_rest.amax());
-        if missing.is_nan() || missing > 1e-9 * scale {
+        let found = velocity(&p);
+        let missing = v.iter().zip(&found).map(|(v, found)| (v - found).abs());
+        let scale = largest(&v).max(largest(&velocity(&vec![0.0; q.len()])));
+        if !missing.into_iter().all(|missing| missing <= 1e-9 * scale) {
             return Err(errors::argument(
                 "H is not quadratic in the momenta, so velocities do not determine them: give the momenta `p`",
             ));
         }
-        Ok(p.as_slice().to_vec())
+        Ok(p)
     }
 }
 

@@ -115,13 +115,13 @@ impl Plan<'_> {
         let parameters = run.system().parameters().clone();
         let with = (self.tapes, &parameters);
         let dimension = run.state().q.len();
-        let steps = match self.output {
-            Output::Times(_) => Vec::new(),
-            Output::Steps(most) => step_times(run, self.end, *most)?,
-        };
+        let steps;
         let times = match self.output {
             Output::Times(times) => times,
-            Output::Steps(_) => &steps,
+            Output::Steps(most) => {
+                steps = step_times(run, self.end, *most)?;
+                &steps
+            }
         };
         seen.output = Rows::with_capacity(times.len(), dimension);
         if times.is_empty() && self.events.is_empty() {
@@ -279,13 +279,7 @@ pub(crate) fn integrate<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let events = Events::new(problem, events)?;
-    let starts = Starts {
-        time,
-        q: q.as_slice()?,
-        p: p.as_slice()?,
-        varied: varied.as_slice()?,
-        count: 1,
-    };
+    let starts = Starts::new(time, &q, &p, &varied)?;
     let outputs = match &output {
         Output::Times(times) => times.len(),
         Output::Steps(most) => {
@@ -347,11 +341,7 @@ pub(crate) fn integrate<'py>(
     found.set_item("statistics", statistics(py, &counts)?)?;
     // Whether an event ended it.
     found.set_item("ended", outcome.is_ok() && state.time != end)?;
-    let remaining = RemainingSteps::between(time, end, setting.step);
-    let size = remaining
-        .ok()
-        .and_then(|remaining| Some(remaining.next()?.0));
-    found.set_item("step", size.unwrap_or(setting.step))?;
+    found.set_item("step", setting.size(time, end))?;
     let error = outcome.err().filter(|_| interrupted.is_none());
     found.set_item(
         "error",

@@ -33,8 +33,7 @@ type Statement = (
 );
 
 fn limits(max_stages: Option<usize>) -> Limits {
-    let at_most = |stages: usize| Limits::at_most(u16::try_from(stages).unwrap_or(u16::MAX));
-    max_stages.map_or_else(Limits::default, at_most)
+    max_stages.map_or_else(Limits::default, Limits::at_most)
 }
 
 fn listed<T: Clone>(all: symplectic_compiler::Coefficients<T>) -> Coefficients<T> {

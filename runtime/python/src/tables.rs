@@ -6,8 +6,7 @@ use pyo3::prelude::*;
 use symplectic_compiler::{Library, Limits};
 use symplectic_tools::audit::Audit;
 use symplectic_tools::{
-    ImportOrigin, import_with_origin, refine as refined, refine_table, refine_table_to_nearest,
-    refine_to_nearest,
+    import_with_origin, refine as refined, refine_table, refine_table_to_nearest, refine_to_nearest,
 };
 
 use crate::errors;
@@ -74,26 +73,5 @@ pub(crate) fn import_table(
     let (tableau, origin) = py
         .detach(work)
         .map_err(|error| errors::definition(&error))?;
-    let note = match origin {
-        ImportOrigin::Exact => None,
-        ImportOrigin::NearDecimals {
-            forced_by,
-            distance,
-        } => {
-            let forced_by = forced_by.map_or(String::new(), |condition| {
-                format!("as they are written, the decimals do not have {condition}; ")
-            });
-            let distance = distance.map_or(String::new(), |distance| {
-                format!(", from which the decimals differ by at most {distance:.1e}")
-            });
-            Some(format!(
-                "{forced_by}the result is the exact method near the decimals{distance}"
-            ))
-        }
-        ImportOrigin::Decimals { separable, nystrom } => Some(format!(
-            "no exact method was found near the decimals; they are taken as exact numbers; up to their rounding they have order \
-             {separable} for T(p) + U(q), and {nystrom} for quadratic T"
-        )),
-    };
-    Ok((Tableau(Arc::new(tableau)), note))
+    Ok((Tableau(Arc::new(tableau)), origin.note()))
 }

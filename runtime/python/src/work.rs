@@ -3,6 +3,7 @@
 use std::marker::PhantomData;
 use std::sync::{Arc, OnceLock};
 
+use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use symplectic::at_run_time::RunTimeTableau;
 use symplectic::constraints::{Constrained, Nonholonomic, consistent, consistent_momentum};
@@ -10,6 +11,7 @@ use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::Newton;
+use symplectic::stepper::RemainingSteps;
 use symplectic::system::{Class, Conservative};
 use symplectic::{
     Compensated, Error, General, Hamiltonian, Method as Steps, ProvedFor, Retry, Separable, State,
@@ -47,6 +49,32 @@ pub(crate) struct Starts<'a> {
     pub(crate) p: &'a [f64],
     pub(crate) varied: &'a [f64],
     pub(crate) count: usize,
+}
+
+impl<'a> Starts<'a> {
+    pub(crate) fn new(
+        time: f64,
+        q: &'a PyReadonlyArray2<'_, f64>,
+        p: &'a PyReadonlyArray2<'_, f64>,
+        varied: &'a PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Self> {
+        Ok(Starts {
+            time,
+            q: q.as_slice()?,
+            p: p.as_slice()?,
+            varied: varied.as_slice()?,
+            count: q.as_array().nrows(),
+        })
+    }
+}
+
+impl Setting {
+    /// The size of the equal steps from a time to the end.
+    pub(crate) fn size(&self, time: f64, end: f64) -> f64 {
+        let remaining = RemainingSteps::between(time, end, self.step);
+        let next = remaining.ok().and_then(|remaining| remaining.next());
+        next.map_or(self.step, |(size, _)| size)
+    }
 }
 
 /// What is done with an ensemble of formulas.
@@ -444,6 +472,7 @@ impl<'a> Job<'a> {
                 "H is not separable, or a force depends on momenta: `{name}` has order {order} for separable H only, and for this H it has \
                  order {lower_order} or is not symplectic: {accept}"
             ),
+            // A single start needs no number.
             EnsembleError::Start { error, .. } if self.starts.count == 1 => error.to_string(),
             other => other.to_string(),
         })

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use symplectic::State;
-use symplectic::nalgebra::{DMatrix, DVector};
+use symplectic::nalgebra::DVector;
 use symplectic_compiler::Error;
 use symplectic_tape::{At, Input, Parameters, Tape, Tapes};
 
@@ -279,33 +279,17 @@ impl Completion<'_> {
         self.file.error(derived.span.clone(), message)
     }
 
-    /// Replaces the velocities of a row by momenta. H of a Lagrangian is quadratic in the momenta, so that velocities are linear.
+    /// Replaces the velocities of a row by momenta. H of a Lagrangian is quadratic in the momenta.
     fn momenta(&self, row: &mut [f64]) -> Result<(), Error> {
         let half = self.coordinates.dimension();
         let parameters = Parameters::from(&row[2 * half..]);
-        let velocity =
-            |row: &[f64]| DVector::from_vec(self.tapes.velocity_at(self.at(&parameters, row)));
-        let wanted = DVector::from_column_slice(&row[half..2 * half]);
-        row[half..2 * half].fill(0.0);
-        let at_rest = velocity(row);
-        let mut columns = Vec::new();
-        for k in half..2 * half {
-            row[k] = 1.0;
-            columns.push(velocity(row) - &at_rest);
-            row[k] = 0.0;
-        }
-        let inverse_masses = DMatrix::from_columns(&columns).lu();
-        // The second time corrects rounding errors.
-        for _ in 0..2 {
-            let missing = &wanted - velocity(row);
-            let Some(more) = inverse_masses.solve(&missing) else {
-                let message = "the masses are singular at a start: give other starts";
-                return Err(self.file.error(self.setup.starts.span(), message));
-            };
-            for (momentum, more) in row[half..2 * half].iter_mut().zip(&more) {
-                *momentum += more;
-            }
-        }
+        let (q, rest) = row.split_at_mut(half);
+        let at = (self.setup.start(), &*q);
+        let Some(momentum) = self.tapes.momentum_of(&parameters, at, &rest[..half]) else {
+            let message = "the masses are singular at a start: give other starts";
+            return Err(self.file.error(self.setup.starts.span(), message));
+        };
+        rest[..half].copy_from_slice(&momentum);
         Ok(())
     }
 }

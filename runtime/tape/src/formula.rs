@@ -10,7 +10,7 @@ use symplectic::constraints::{
     NonholonomicConstraints,
 };
 use symplectic::emitted::LaneWork;
-use symplectic::nalgebra::DVector;
+use symplectic::nalgebra::{DMatrix, DVector};
 use symplectic::simd::Lanes;
 use symplectic::system::{Class, Unconstrained};
 use symplectic::{General, Hamiltonian, Scalar, Separable, Vector};
@@ -153,6 +153,42 @@ impl Tapes {
         let write = |to: usize, values: &[f64]| copy_to(&mut velocity, to, values);
         self.velocity.run(point, write);
         velocity
+    }
+
+    /// The momentum of a velocity at a position, for H that is quadratic in the momenta; `None` if its matrix is singular.
+    pub fn momentum_of(
+        &self,
+        parameters: &Parameters,
+        (time, q): (f64, &[f64]),
+        velocity: &[f64],
+    ) -> Option<Vec<f64>> {
+        let velocity_at = |p: &[f64]| {
+            DVector::from_vec(self.velocity_at(At {
+                parameters,
+                time,
+                q,
+                p,
+            }))
+        };
+        let mut momentum = vec![0.0; q.len()];
+        let at_rest = velocity_at(&momentum);
+        let mut columns = Vec::new();
+        for k in 0..q.len() {
+            momentum[k] = 1.0;
+            columns.push(velocity_at(&momentum) - &at_rest);
+            momentum[k] = 0.0;
+        }
+        let inverse_masses = DMatrix::from_columns(&columns).lu();
+        let wanted = DVector::from_column_slice(velocity);
+        // The second time corrects rounding errors.
+        for _ in 0..2 {
+            let missing = &wanted - velocity_at(&momentum);
+            let more = inverse_masses.solve(&missing)?;
+            for (momentum, more) in momentum.iter_mut().zip(&more) {
+                *momentum += more;
+            }
+        }
+        Some(momentum)
     }
 
     /// H at a point.

@@ -80,6 +80,33 @@ pub enum ImportOrigin {
     },
 }
 
+impl ImportOrigin {
+    /// How the coefficients differ from the numbers of the table, in a sentence; `None` if they do not.
+    pub fn note(&self) -> Option<String> {
+        match self {
+            ImportOrigin::Exact => None,
+            ImportOrigin::NearDecimals {
+                forced_by,
+                distance,
+            } => {
+                let forced_by = forced_by.as_ref().map_or(String::new(), |condition| {
+                    format!("as they are written, the decimals do not have {condition}; ")
+                });
+                let distance = distance.map_or(String::new(), |distance| {
+                    format!(", from which the decimals differ by at most {distance:.1e}")
+                });
+                Some(format!(
+                    "{forced_by}the result is the exact method near the decimals{distance}"
+                ))
+            }
+            ImportOrigin::Decimals { separable, nystrom } => Some(format!(
+                "no exact method was found near the decimals; they are taken as exact numbers; up to their rounding they have order \
+                 {separable} for T(p) + U(q), and {nystrom} for quadratic T"
+            )),
+        }
+    }
+}
+
 /// Reads a table like [`import`], and returns the origin of its coefficients.
 ///
 /// ```

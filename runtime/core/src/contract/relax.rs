@@ -199,7 +199,7 @@ where
     }
 }
 
-/// The largest number of stages that are computed side by side, as many as there are lanes.
+/// The largest number of stages that are computed side by side: the number of lanes.
 #[cfg(feature = "alloc")]
 const STAGES: usize = 8;
 

@@ -146,7 +146,7 @@ impl Tape {
     }
 }
 
-/// Copies results from the number `to` on, as many as there are places.
+/// Copies results into the places from the number `to` on; those without a place are left out.
 #[inline]
 pub(crate) fn copy_to<T: Scalar>(out: &mut [T], to: usize, values: &[T]) {
     if let [value] = values {

@@ -12,7 +12,7 @@ use crate::tape::Register;
 /// The size of a cache line: no chunk of a row in a block is in two.
 const LINE: usize = 64;
 
-/// Runs work with so many registers, which the thread keeps for the next time. Their values are any.
+/// Runs work with `count` registers, which the thread keeps for the next evaluation. They hold old values at first.
 pub(super) fn with_registers<R: Copy + 'static>(
     count: usize,
     zero: R,

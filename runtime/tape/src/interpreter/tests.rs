@@ -306,7 +306,7 @@ fn every_lane_has_its_own_parameters() {
 }
 
 #[test]
-fn what_does_not_exist_is_nan() {
+fn inputs_that_a_point_does_not_have_are_nan() {
     let list: Vec<Value> = (0..6).map(Value::Position).collect();
     let tape = assembled(&(list, (0..6).collect()));
     let parameters = Parameters::none();
