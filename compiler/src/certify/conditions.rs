@@ -204,6 +204,26 @@ impl Conditions {
         ))
     }
 
+    /// The conditions of one degree in the step size, for splittings: a method that satisfies those of all lower degrees has these residuals
+    /// as the coordinates of its leading error.
+    ///
+    /// # Errors
+    /// [`CertifyError::Order`] for a degree that is zero, or more than one beyond the highest order.
+    pub fn of_degree(class: HamiltonianClass, degree: usize) -> Result<Self, CertifyError> {
+        let highest = MAX_ORDER + 1;
+        let claim = match class {
+            HamiltonianClass::Nystrom => Claim::Nystrom(degree),
+            HamiltonianClass::Separable | HamiltonianClass::General => Claim::Separable(degree),
+        };
+        match (1..=highest).contains(&degree) {
+            true => Ok(Conditions::of_degrees(&claim, std::iter::once(degree))),
+            false => Err(CertifyError::Order {
+                order: degree,
+                limit: highest,
+            }),
+        }
+    }
+
     /// The conditions of the given degrees, which are ascending.
     pub(super) fn of_degrees(claim: &Claim, degrees: impl Iterator<Item = usize>) -> Self {
         let mut all = Conditions {
