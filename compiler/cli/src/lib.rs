@@ -1,6 +1,6 @@
 //! The command line: derive a tableau or the equations of a Hamiltonian, show and list known methods, emit integrators
 //! as source code, check files, write certificates, refine printed coefficients, import tables of other libraries and
-//! audit their claims, run ensembles of a formula.
+//! audit their claims, search for methods, run ensembles of a formula.
 //!
 //! Exit status: 0 for success; 1 if the entries of a file do not match, its digits are not certified, an audit finds an
 //! unexplained difference or all trajectories of a run fail; 2 for invalid input.
@@ -16,8 +16,10 @@ mod formula;
 mod import;
 mod list;
 pub mod output;
+mod program;
 mod refine;
 mod run;
+mod search;
 mod show;
 
 use std::ffi::OsString;
@@ -46,6 +48,7 @@ enum Command {
     Refine(refine::Arguments),
     Import(import::Arguments),
     Audit(audit::Arguments),
+    Search(search::Arguments),
     Run(run::Arguments),
 }
 
@@ -63,6 +66,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Audit(arguments) => audit::run(&arguments),
+        Command::Search(arguments) => search::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
     };
     errors::exit_code(outcome)

@@ -230,58 +230,76 @@ pub(crate) fn beside_the_catalogue(
 /// Errors of methods, for each scene at several costs.
 type Errors = Vec<Vec<f64>>;
 
-/// Ratios of errors at equal cost on all scenes, each to the method of the catalogue that is best there.
+/// Ratios of errors at equal cost on all scenes: to the most efficient method of the catalogue, and to the one that is best on the scene.
 pub(crate) fn trial(trial: &Trial, own: &[Errors], others: &[(&str, Errors)]) -> String {
+    let Some((first, _)) = others.first() else {
+        return String::new();
+    };
     let names: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
-    let mut text = format!(
-        "\nErrors at equal cost in long runs, divided by those of the method of the catalogue that is best on the scene, out of {}: the \
-         geometric mean over all costs, and the largest ratio. Below 1 the method found is better.\n",
+    let text = format!(
+        "\nErrors at equal cost in long runs, divided by those of {first}, the most efficient method of the catalogue, and by those of the \
+         best one on the scene out of {}: geometric means over all costs. Below 1 the method found is better.\n",
         names.join(", ")
     );
-    let cell =
-        |ratio: Option<f64>| ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.3}"));
+    let mut overview = vec![
+        [
+            "method",
+            "better than the first",
+            "largest ratio",
+            "better than all",
+            "largest ratio",
+        ]
+        .map(str::to_owned),
+    ];
+    let mut details = String::new();
     for (number, own) in (1..).zip(own) {
-        let all: Vec<_> = others
+        let ratios: Vec<(&str, Vec<f64>)> = others
             .iter()
-            .map(|(name, other)| (*name, trial.compare(own, other)))
-            .collect();
-        let scenes = all.first().map_or(0, |(_, comparisons)| comparisons.len());
-        let hardest = |scene: usize| {
-            let comparisons = all
-                .iter()
-                .map(|(name, comparisons)| (*name, &comparisons[scene]));
-            comparisons.max_by(|(_, x), (_, y)| {
-                x.ratio()
-                    .unwrap_or(0.0)
-                    .total_cmp(&y.ratio().unwrap_or(0.0))
+            .map(|(name, other)| {
+                let comparisons = trial.compare(own, other);
+                (
+                    *name,
+                    comparisons
+                        .iter()
+                        .map(|c| c.ratio().unwrap_or(f64::NAN))
+                        .collect(),
+                )
             })
+            .collect();
+        let hardest: Vec<(&str, f64)> = (0..trial.scenes().len())
+            .filter_map(|scene| {
+                let all = ratios.iter().map(|(name, ratios)| (*name, ratios[scene]));
+                all.filter(|(_, ratio)| !ratio.is_nan())
+                    .max_by(|(_, x), (_, y)| x.total_cmp(y))
+            })
+            .collect();
+        let of_first = &ratios[0].1;
+        let hard: Vec<f64> = hardest.iter().map(|(_, ratio)| *ratio).collect();
+        let better = |ratios: &[f64]| {
+            let count = ratios.iter().filter(|ratio| **ratio < 1.0).count();
+            format!("on {count} of {} scenes", ratios.len())
         };
-        let hardest: Vec<_> = (0..scenes).filter_map(hardest).collect();
-        let better = hardest
-            .iter()
-            .filter(|(_, comparison)| comparison.ratio().is_some_and(|ratio| ratio < 1.0))
-            .count();
-        text.push_str(&format!(
-            "\nMethod {number}: smaller errors on {better} of {scenes} scenes\n\n"
-        ));
-        let mut rows = vec![
+        let largest = |ratios: &[f64]| format!("{:.3}", ratios.iter().copied().fold(0.0, f64::max));
+        overview.push([
+            number.to_string(),
+            better(of_first),
+            largest(of_first),
+            better(&hard),
+            largest(&hard),
+        ]);
+        details.push_str(&format!("\nMethod {number}\n\n"));
+        let mut rows =
+            vec![["scene", first, "best on the scene", "ratio to it"].map(str::to_owned)];
+        let scenes = trial.scenes().into_iter().zip(of_first).zip(&hardest);
+        rows.extend(scenes.map(|((scene, ratio), (name, hard))| {
             [
-                "scene",
-                "best of the catalogue",
-                "mean ratio",
-                "largest ratio",
-            ]
-            .map(str::to_owned),
-        ];
-        rows.extend(hardest.into_iter().map(|(name, comparison)| {
-            [
-                comparison.scene.to_owned(),
-                name.to_owned(),
-                cell(comparison.ratio()),
-                cell(comparison.worst()),
+                scene.to_owned(),
+                format!("{ratio:.3}"),
+                (*name).to_owned(),
+                format!("{hard:.3}"),
             ]
         }));
-        text.push_str(&aligned(&rows));
+        details.push_str(&aligned(&rows));
     }
-    text
+    format!("{text}\n{}{details}", aligned(&overview))
 }

@@ -137,6 +137,12 @@ impl Trial {
         })
     }
 
+    /// The names of the scenes.
+    #[must_use]
+    pub fn scenes(&self) -> Vec<&'static str> {
+        self.scenes.iter().map(|(scene, _)| scene.name).collect()
+    }
+
     /// The errors of a method: for each scene the largest one at each rate.
     #[must_use]
     pub fn errors(&self, method: &Splitting) -> Vec<Vec<f64>> {
@@ -203,7 +209,12 @@ pub fn rivals(problem: &Problem) -> Vec<Known> {
         let forces = tableau.evaluations()?.forces;
         let is_rival = match &problem.claim {
             Claim::Perturbed(orders) => tableau.perturbed_order()?.orders() == *orders,
-            _ => tableau.orders().class(class).order == order,
+            // A method of higher order for quadratic T belongs to that class.
+            _ => {
+                let report = tableau.orders();
+                let is_of_order = |class| report.class(class).order == order;
+                is_of_order(class) && is_of_order(HamiltonianClass::Nystrom)
+            }
         };
         let error = is_rival.then(|| error_constant(&tableau, class))?;
         let efficiency = forces as f64 * error.powf(1.0 / order as f64);
