@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::{Parser, ValueEnum};
-use symplectic_compiler::certify::{Claim, Conditions};
+use symplectic_compiler::certify::{CertifyError, Claim, Conditions};
 use symplectic_compiler::export::{DEFAULT_DIGITS, toml};
 use symplectic_compiler::{Error, ErrorKind};
 use symplectic_terminal::{errors, print};
@@ -17,8 +17,8 @@ use symplectic_tools::certificate;
 
 use crate::display::{self, Live};
 use crate::figure::Norm;
-use crate::hunt::{Problem, Progress};
-use crate::proof::Method;
+use crate::hunt::{Problem, Progress, Solution};
+use crate::proof::{Method, ProofError};
 use crate::state;
 use crate::structure::Structure;
 use crate::trial::{Splitting, Trial, rivals};
@@ -42,14 +42,23 @@ struct Arguments {
     /// The structure.
     #[arg(long, value_enum, default_value_t = Shape::Aba)]
     structure: Shape,
-    /// What is minimised.
-    #[arg(long, value_enum, default_value_t = Figure::Error)]
-    minimise: Figure,
+    /// What is minimised [default: error; cost where the next order is in reach; perturbed for `--class perturbed`].
+    #[arg(long, value_enum)]
+    minimise: Option<Figure>,
+    /// The error at which `--minimise cost` takes the cost.
+    #[arg(long, value_name = "E", default_value_t = 1e-8, allow_hyphen_values = true, value_parser = positive)]
+    tolerance: f64,
+    /// The ε of `--minimise perturbed`.
+    #[arg(long, value_name = "E", default_value_t = 1e-2, allow_hyphen_values = true, value_parser = positive)]
+    epsilon: f64,
+    /// The frequency of the harmonic oscillator with an error of higher order than the method, as one more equation.
+    #[arg(long)]
+    dispersion: bool,
     /// Only methods that are stable for `q″ = −ω²q` up to this hω a kick; Störmer–Verlet is stable up to 2.
     #[arg(long, value_name = "Z", default_value_t = 0.0)]
     at_least_stable: f64,
     /// The largest size of a coefficient. Large ones lose digits.
-    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    #[arg(long, value_name = "X", default_value_t = 1.0, allow_hyphen_values = true, value_parser = positive)]
     largest: f64,
     /// The number of random starts [default: as many as the time allows].
     #[arg(long, value_name = "N")]
@@ -105,6 +114,10 @@ enum Figure {
     ModuloConjugation,
     /// What grows in long runs, and a tenth of the error constant.
     LongRuns,
+    /// The error constant for H_A + εH_B with the ε of `--epsilon`.
+    Perturbed,
+    /// The force evaluations for the error of `--tolerance`, with the two leading terms of the error; for orders up to 4.
+    Cost,
 }
 
 impl Arguments {
@@ -141,21 +154,32 @@ impl Arguments {
                 first + 1
             )));
         }
-        if !(self.largest > 0.0 && self.largest.is_finite()) {
-            return Err(refused("`--largest` needs a positive number".to_owned()));
-        }
-        Ok(Problem {
+        let mut problem = Problem {
             claim,
             structure,
             kicks: usize::from(self.kicks),
-            norm: match self.minimise {
-                Figure::Error => Norm::Error,
-                Figure::ModuloConjugation => Norm::ModuloConjugation,
-                Figure::LongRuns => Norm::LongRuns,
-            },
+            norm: Norm::Error,
             largest: self.largest,
+            dispersion: self.dispersion,
             at_least_stable: self.at_least_stable,
-        })
+        };
+        let default = match self.class {
+            Class::Perturbed => Figure::Perturbed,
+            _ if next_in_reach(&problem).is_some() && *first <= 4 => Figure::Cost,
+            _ => Figure::Error,
+        };
+        problem.norm = match self.minimise.unwrap_or(default) {
+            Figure::Error => Norm::Error,
+            Figure::ModuloConjugation => Norm::ModuloConjugation,
+            Figure::LongRuns => Norm::LongRuns,
+            Figure::Perturbed => Norm::Perturbed {
+                epsilon: self.epsilon,
+            },
+            Figure::Cost => Norm::Cost {
+                tolerance: self.tolerance,
+            },
+        };
+        Ok(problem)
     }
 
     /// The time after which the search ends.
@@ -167,47 +191,156 @@ impl Arguments {
 
 /// Runs the command with the arguments of a command line, whose first one is the name of the program. Wrong arguments end the process.
 pub fn command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    errors::exit_code(run(&Arguments::parse_from(arguments)))
+    errors::exit_code(run(&Options(Arguments::parse_from(arguments))))
 }
 
-fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
-    let problem = arguments.problem()?;
-    let mut progress = match &arguments.resume {
-        Some(file) => state::read(file, &problem, arguments.seed)?,
-        None => Progress::new(arguments.seed),
-    };
+fn run(options: &Options) -> Result<ExitCode, Error> {
+    let stopped = Arc::new(AtomicBool::new(false));
+    let flag = stopped.clone();
+    // Without the handler Ctrl-C ends the program as usual.
+    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+    let problem = options.0.problem()?;
     warn(&problem)?;
-    search(arguments, &problem, &mut progress)?;
+    let begin = Instant::now();
+    let live = Live::new();
+    let found = options.search(|progress| {
+        live.show(&problem, progress, begin.elapsed());
+        match stopped.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    live.finish();
+    let Found {
+        progress,
+        methods,
+        left_out,
+        ..
+    } = found?;
     if progress.solutions.is_empty() {
         return print(&display::nothing(&problem, &progress));
     }
     let mut text = display::summary(&problem, &progress);
-    let mut methods: Vec<Method> = Vec::new();
-    for solution in progress.solutions.iter().take(arguments.keep) {
-        match problem.prove(solution) {
-            Ok(method) => {
-                let number = methods.len() + 1;
-                let name = display::name(&problem, number);
-                let method = Method {
-                    tableau: method.tableau.named(&name),
-                    ..method
-                };
-                text.push_str(&display::method(&problem, number, solution, &method));
-                if let Some(folder) = &arguments.out {
-                    write(folder, &name, &method)?;
-                }
-                methods.push(method);
-            }
-            Err(error) => text.push_str(&format!("A solution is left out: {error}\n\n")),
-        }
+    for (number, (solution, method)) in (1..).zip(&methods) {
+        text.push_str(&display::method(&problem, number, solution, method));
     }
-    let known = rivals(&problem);
+    for error in left_out {
+        text.push_str(&format!("A solution is left out: {error}\n\n"));
+    }
+    let known = rivals(&problem).map_err(|error| refused(error.to_string()))?;
+    let methods: Vec<Method> = methods.into_iter().map(|(_, method)| method).collect();
     text.push_str(&display::beside_the_catalogue(&problem, &methods, &known));
-    if arguments.test {
+    if options.0.test {
         text.push_str(&test(&problem, &methods, &known)?);
     }
     print(&text)
 }
+
+/// A search by the options of the command line.
+pub struct Options(Arguments);
+
+/// What a search has found.
+#[derive(Debug)]
+pub struct Found {
+    /// What was searched.
+    pub problem: Problem,
+    /// The state of the search at its end.
+    pub progress: Progress,
+    /// The best solutions with the methods that are proved to be near them.
+    pub methods: Vec<(Solution, Method)>,
+    /// The solutions among the best that have no proof.
+    pub left_out: Vec<ProofError>,
+}
+
+impl Options {
+    /// Reads options, the first one after the name of the program: `--order 4 --kicks 5`.
+    ///
+    /// # Errors
+    /// The message about options that are wrong or missing.
+    pub fn parse(options: impl IntoIterator<Item = String>) -> Result<Self, String> {
+        let program = std::iter::once("search".to_owned());
+        let parsed = Arguments::try_parse_from(program.chain(options));
+        parsed.map(Options).map_err(|error| error.to_string())
+    }
+
+    /// Searches until the starts or the time are used up, or `report`, which is called regularly, breaks it off; then proves the best
+    /// solutions, and writes them to the folder of the options.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use symplectic_search::Options;
+    ///
+    /// let options = ["--order", "4", "--kicks", "4", "--starts", "64"];
+    /// let options = Options::parse(options.map(str::to_owned))?;
+    /// let found = options.search(|_| ControlFlow::Continue(()))?;
+    /// let (_, best) = &found.methods[0];
+    /// assert!(best.tableau.orders().separable.order == 4 && best.error < 0.0077);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Options that do not go together, and files that cannot be read or written.
+    pub fn search(
+        &self,
+        mut report: impl FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<Found, Error> {
+        let Options(arguments) = self;
+        let problem = arguments.problem()?;
+        let mut progress = match &arguments.resume {
+            Some(file) => state::read(file, &problem, arguments.seed)?,
+            None => Progress::new(arguments.seed),
+        };
+        let begin = Instant::now();
+        let mut saved = begin;
+        let mut failure = None;
+        let starts = u64::from(arguments.starts.unwrap_or(u32::MAX));
+        let searched = problem.search(&mut progress, starts, |progress| {
+            if let Some(file) = &arguments.resume
+                && saved.elapsed() > SAVED
+            {
+                saved = Instant::now();
+                failure = state::write(file, &problem, progress).err();
+            }
+            let is_over = arguments
+                .limit()
+                .is_some_and(|limit| begin.elapsed() >= limit);
+            match is_over || failure.is_some() {
+                true => ControlFlow::Break(()),
+                false => report(progress),
+            }
+        });
+        searched.map_err(|error| refused(error.to_string()))?;
+        if let Some(file) = &arguments.resume {
+            state::write(file, &problem, &progress)?;
+        }
+        let (mut methods, mut left_out) = (Vec::new(), Vec::new());
+        for solution in progress.solutions.iter().take(arguments.keep) {
+            match problem.prove(solution) {
+                Ok(method) => {
+                    let name = display::name(&problem, methods.len() + 1);
+                    let method = Method {
+                        tableau: method.tableau.named(&name),
+                        ..method
+                    };
+                    if let Some(folder) = &arguments.out {
+                        write(folder, &name, &method)?;
+                    }
+                    methods.push((solution.clone(), method));
+                }
+                Err(error) => left_out.push(error),
+            }
+        }
+        Ok(Found {
+            problem,
+            progress,
+            methods,
+            left_out,
+        })
+    }
+}
+
+/// The time between two writings of the state.
+const SAVED: Duration = Duration::from_secs(2);
 
 /// Compares the methods with the most efficient ones of the catalogue on all scenes.
 fn test(
@@ -217,93 +350,62 @@ fn test(
 ) -> Result<String, Error> {
     const RIVALS: usize = 6;
     let trial = Trial::new(problem)?;
-    let errors = |tableau| Splitting::of(tableau).map(|splitting| trial.errors(&splitting));
-    let own: Vec<_> = methods
+    let errors = |splitting: &Splitting| trial.errors(splitting);
+    let own = methods
         .iter()
-        .filter_map(|method| errors(&method.tableau))
+        .filter_map(|method| Splitting::of(&method.tableau));
+    let own: Vec<_> = own.map(|splitting| errors(&splitting)).collect();
+    let others = known.iter().take(RIVALS);
+    let others: Vec<_> = others
+        .map(|known| (&*known.name, errors(&known.splitting)))
         .collect();
-    let others = known
-        .iter()
-        .filter_map(|known| Some((&*known.name, errors(&known.tableau)?)));
-    let others: Vec<_> = others.take(RIVALS).collect();
     Ok(display::trial(&trial, &own, &others))
-}
-
-fn search(arguments: &Arguments, problem: &Problem, progress: &mut Progress) -> Result<(), Error> {
-    let stopped = Arc::new(AtomicBool::new(false));
-    let flag = stopped.clone();
-    // Without the handler Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
-    let begin = Instant::now();
-    let mut saved = begin;
-    let mut live = Live::new();
-    let starts = arguments.starts.map_or(u32::MAX, |starts| starts);
-    let mut failure = None;
-    let searched = problem.search(progress, u64::from(starts), |progress| {
-        live.show(problem, progress, begin.elapsed());
-        if let Some(file) = &arguments.resume
-            && saved.elapsed() > Duration::from_secs(2)
-        {
-            saved = Instant::now();
-            if let Err(error) = state::write(file, problem, progress) {
-                failure = Some(error);
-                return ControlFlow::Break(());
-            }
-        }
-        let is_over = arguments
-            .limit()
-            .is_some_and(|limit| begin.elapsed() >= limit);
-        match is_over || stopped.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    });
-    live.finish();
-    searched.map_err(|error| refused(error.to_string()))?;
-    match failure {
-        Some(error) => Err(error),
-        None => arguments
-            .resume
-            .as_ref()
-            .map_or(Ok(()), |file| state::write(file, problem, progress)),
-    }
 }
 
 /// Says before the search what cannot be expected of it.
 fn warn(problem: &Problem) -> Result<(), Error> {
-    let counted = |claim: &Claim| -> Result<usize, Error> {
-        let conditions = Conditions::new(claim, problem.structure.is_symmetric());
-        Ok(conditions
-            .map_err(|error| refused(error.to_string()))?
-            .conditions()
-            .len())
-    };
-    let (conditions, unknowns) = (counted(&problem.claim)?, problem.unknowns());
+    let conditions =
+        conditions(problem, &problem.claim).map_err(|error| refused(error.to_string()))?;
+    let unknowns = problem.unknowns();
     if conditions > unknowns {
         errors::warning(&format!(
             "there are {conditions} conditions for {unknowns} unknowns: a solution would be a coincidence; take more kicks"
         ));
     }
-    let step = if problem.structure.is_symmetric() {
-        2
-    } else {
-        1
-    };
-    let next = match problem.claim {
-        Claim::Separable(order) => Some(Claim::Separable(order + step)),
-        Claim::Nystrom(order) => Some(Claim::Nystrom(order + step)),
-        Claim::SymmetricBase(order) => Some(Claim::SymmetricBase(order + step)),
-        Claim::Perturbed(_) => None,
-    };
-    if let Some(next) = next
-        && counted(&next).is_ok_and(|more| more <= unknowns)
-    {
+    if let Some(next) = next_in_reach(problem) {
+        let figure = match problem.norm {
+            Norm::Cost { .. } => {
+                "so the cost is minimised, with the two leading terms of the error"
+            }
+            _ => "so the figure, which has the leading term only, can vanish and says little",
+        };
         errors::warning(&format!(
-            "{} is in reach with {} kicks: the error constant of the lower order can vanish, and says little; search for the higher order",
-            next, problem.kicks
+            "{next} is in reach with {} kicks, {figure}; search for the higher order too",
+            problem.kicks
         ));
     }
     Ok(())
+}
+
+/// The number of conditions of a claim.
+fn conditions(problem: &Problem, claim: &Claim) -> Result<usize, CertifyError> {
+    Ok(Conditions::new(claim, problem.structure.is_symmetric())?
+        .conditions()
+        .len())
+}
+
+/// The claim of the next order, if there are as many unknowns as conditions for it.
+fn next_in_reach(problem: &Problem) -> Option<Claim> {
+    let step = problem.step();
+    let next = match problem.claim {
+        Claim::Separable(order) => Claim::Separable(order + step),
+        Claim::Nystrom(order) => Claim::Nystrom(order + step),
+        Claim::SymmetricBase(order) => Claim::SymmetricBase(order + step),
+        Claim::Perturbed(_) => return None,
+    };
+    conditions(problem, &next)
+        .is_ok_and(|more| more <= problem.unknowns())
+        .then_some(next)
 }
 
 /// Writes a method and its certificate.
@@ -336,4 +438,12 @@ fn duration(text: &str) -> Result<Duration, String> {
     parsed
         .filter(|time| !time.is_zero())
         .ok_or_else(|| "expected a time such as 30s, 5m or 1h".to_owned())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value = text
+        .parse()
+        .ok()
+        .filter(|value: &f64| value.is_normal() && *value > 0.0);
+    value.ok_or_else(|| "expected a positive number".to_owned())
 }

@@ -26,7 +26,7 @@ impl Live {
         Live(bar)
     }
 
-    pub(crate) fn show(&mut self, problem: &Problem, progress: &Progress, elapsed: Duration) {
+    pub(crate) fn show(&self, problem: &Problem, progress: &Progress, elapsed: Duration) {
         if self.0.is_hidden() {
             return;
         }
@@ -46,7 +46,7 @@ impl Live {
 /// The best solutions.
 fn table(problem: &Problem, solutions: &[Solution]) -> String {
     let head = [
-        "error constant",
+        "figure",
         "efficiency",
         "largest",
         "stable hω a kick",

@@ -9,11 +9,17 @@
 //! * the **error modulo conjugation**: `exp(h^p P)` changes the variables, and `Z` to `Z + [P, A + B]`. In a long run only the part of `Z`
 //!   grows that no such `P` removes, since the change of variables acts at both ends only. The figure is the smallest norm over all `P`. It
 //!   vanishes for the kernel of a processed method of higher order.
+//! * the **error of perturbed systems** `H_A + εH_B`: the error constant with the factor `ε^{j−1}` at trees with `j` kicks.
 //! * the **error of long runs**: the error modulo conjugation and, as the rest of the error does not grow, a tenth of the error constant.
+//!
+//! Where order `p + 2` is in reach, `C_p` can vanish, and says nothing. Then the **cost** counts: with the two leading terms of the error the
+//! step `h` for an error `ε` solves `C_p² h^{2p} + C_{p+2}² h^{2p+4} = ε²`. The term of degree `p + 3` of the Lie element is a sum over all
+//! ways to cut a word into `k` parts, `(−1)^{k−1}/k` times the coefficient of the shuffle of the parts: the logarithm. The figure is `ε/h^p`,
+//! the error constant of a method with one term of the same cost.
 //!
 //! $$ C^2 = \sum_\tau \Bigl(\frac{\varphi_\tau(Z)}{\sigma(\tau)}\Bigr)^2 = |L r|^2 $$
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix2, RowDVector};
 use num_traits::ToPrimitive;
 use symplectic_compiler::certify::{CertifyError, Conditions, DRIFT, KICK};
 use symplectic_compiler::order::{BicolouredTree, Colour, HamiltonianClass, TreeRule, Trees};
@@ -22,8 +28,8 @@ use crate::lie::{Combination, basis, bracket, pair, shuffle};
 use crate::polynomials::Polynomials;
 use crate::structure::Model;
 
-/// A norm of the leading error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A figure of the leading error.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Norm {
     /// The error constant.
     Error,
@@ -31,22 +37,136 @@ pub enum Norm {
     ModuloConjugation,
     /// The root of the sum of the squares of the error modulo conjugation and of a tenth of the error constant.
     LongRuns,
+    /// The error constant for a system `H_A + εH_B`, divided by `ε`.
+    Perturbed {
+        /// `ε`.
+        epsilon: f64,
+    },
+    /// The cost at an error, with the two leading terms; for orders up to 4.
+    Cost {
+        /// The error.
+        tolerance: f64,
+    },
 }
 
 /// The share of the error that does not grow, in a long run.
 const BOUNDED: f64 = 0.1;
+/// The highest degree in which logarithms are taken.
+const LOGARITHMS: usize = 7;
 
-/// The squared norm of the leading error as a function of the unknowns.
+/// A figure as a function of the unknowns: the square of an error constant.
 #[derive(Debug, Clone)]
-pub(crate) struct Figure {
+pub(crate) enum Figure {
+    Norm(Form),
+    Cost(Cost),
+}
+
+impl Figure {
+    /// The figure of methods of an order for a class; `step` is the difference of the degrees of the two leading terms.
+    pub(crate) fn new(
+        class: HamiltonianClass,
+        order: usize,
+        step: usize,
+        norm: Norm,
+    ) -> Result<Self, CertifyError> {
+        let near = Form::of_residuals(class, order, norm)?;
+        Ok(match norm {
+            Norm::Cost { tolerance } => Figure::Cost(Cost {
+                near,
+                far: Form::of_logarithm(class, order + 1 + step)?,
+                tolerance,
+                order: order as f64,
+                step: step as f64,
+            }),
+            _ => Figure::Norm(near),
+        })
+    }
+
+    /// The figure.
+    pub(crate) fn value(&self, model: &Model, unknowns: &DVector<f64>) -> f64 {
+        match self {
+            Figure::Norm(form) => form.value(model, unknowns),
+            Figure::Cost(cost) => {
+                cost.step_size(
+                    cost.near.value(model, unknowns),
+                    cost.far.value(model, unknowns),
+                )
+                .0
+            }
+        }
+    }
+
+    /// The figure and its gradient.
+    pub(crate) fn gradient(&self, model: &Model, unknowns: &DVector<f64>) -> (f64, DVector<f64>) {
+        match self {
+            Figure::Norm(form) => form.gradient(model, unknowns),
+            Figure::Cost(cost) => {
+                let (near, near_slope) = cost.near.gradient(model, unknowns);
+                let (far, far_slope) = cost.far.gradient(model, unknowns);
+                let (value, by_near, by_far) = cost.step_size(near, far);
+                (value, near_slope * by_near + far_slope * by_far)
+            }
+        }
+    }
+}
+
+/// The cost at an error, from the two leading terms of the error.
+#[derive(Debug, Clone)]
+pub(crate) struct Cost {
+    near: Form,
+    far: Form,
+    tolerance: f64,
+    order: f64,
+    step: f64,
+}
+
+impl Cost {
+    /// `(ε/h^p)²` with `a h^{2p} + b h^{2p+2k} = ε²`, and its derivatives by `a` and `b`.
+    fn step_size(&self, a: f64, b: f64) -> (f64, f64, f64) {
+        let Cost {
+            tolerance,
+            order,
+            step,
+            ..
+        } = self;
+        let square = tolerance * tolerance;
+        // x = h^2; of the two terms alone, the smaller step is too large by at most a factor of √2.
+        let alone = |c: f64, power: f64| {
+            if c > 0.0 {
+                (square / c).powf(1.0 / power)
+            } else {
+                f64::INFINITY
+            }
+        };
+        let mut x = alone(a, *order).min(alone(b, order + step));
+        for _ in 0..60 {
+            let (first, second) = (a * x.powf(*order), b * x.powf(order + step));
+            let change = (square - first - second) / (order * first + (order + step) * second);
+            // Newton's iteration in ln x.
+            x *= change.clamp(-0.5, 0.5).exp();
+            if change.abs() < 1e-15 {
+                break;
+            }
+        }
+        let (first, second) = (x.powf(*order), x.powf(order + step));
+        let value = square / first;
+        // d ln x = −(x^p da + x^{p+k} db)/(p a x^p + (p + k) b x^{p+k})
+        let slope = order * value / (order * a * first + (order + step) * b * second);
+        (value, slope * first, slope * second)
+    }
+}
+
+/// `|L r|²` for polynomials `r`.
+#[derive(Debug, Clone)]
+pub(crate) struct Form {
     residuals: Polynomials,
     /// `L`.
     norm: DMatrix<f64>,
 }
 
-impl Figure {
-    /// The figure of methods of an order for a class.
-    pub(crate) fn new(
+impl Form {
+    /// The norm of the term of degree `order + 1`, from the residuals of the conditions.
+    fn of_residuals(
         class: HamiltonianClass,
         order: usize,
         norm: Norm,
@@ -54,38 +174,19 @@ impl Figure {
         let degree = order + 1;
         let conditions = Conditions::of_degree(class, degree)?;
         let residuals = Polynomials::new(&conditions);
-        // The residuals of a combination of words.
-        let coordinates = |element: &Combination| -> DVector<f64> {
-            let words = conditions.words().iter();
-            let values = words.map(|word| element.get(word).copied().unwrap_or(0.0));
-            &residuals.forms * DVector::from_iterator(conditions.words().len(), values)
+        let epsilon = match norm {
+            Norm::Perturbed { epsilon } => epsilon,
+            _ => 1.0,
         };
-        let lie = basis(degree);
-        let columns: Vec<DVector<f64>> = lie.iter().map(coordinates).collect();
-        let elements = DMatrix::from_columns(&columns);
-        let trees = Trees::up_to(TreeRule::Class(class), degree);
-        let trees: Vec<BicolouredTree> = trees.of_order(degree).collect();
-        let mut errors = DMatrix::zeros(trees.len(), lie.len());
-        for (row, tree) in trees.iter().enumerate() {
-            let words = words_of(tree);
-            let symmetry = tree.symmetry().to_f64().unwrap_or(f64::INFINITY);
-            for (column, element) in lie.iter().enumerate() {
-                errors[(row, column)] = pair(&words, element) / symmetry;
-            }
-        }
-        // The errors vanish where all coordinates do, so they are a function R of these: errors = R elements.
-        let gram = &elements * elements.transpose();
-        let inverse = pseudo_inverse(gram);
-        let of_residuals = errors * elements.transpose() * inverse;
-        let mut form = of_residuals.transpose() * of_residuals;
-        if norm != Norm::Error {
+        let mut form = error_form(class, &conditions, &residuals, degree, epsilon);
+        if matches!(norm, Norm::ModuloConjugation | Norm::LongRuns) {
             let bounded = &form * (BOUNDED * BOUNDED);
             let flow: Combination = [DRIFT, KICK].map(|letter| (vec![letter], 1.0)).into();
-            let changes: Vec<DVector<f64>> = basis(order)
+            let changes = basis(order);
+            let changes = changes
                 .iter()
-                .map(|p| coordinates(&bracket(p, &flow)))
-                .collect();
-            let changes = DMatrix::from_columns(&changes);
+                .map(|p| residuals.coordinates(&conditions, &bracket(p, &flow)));
+            let changes = DMatrix::from_columns(&changes.collect::<Vec<_>>());
             let along = &form * &changes;
             let inverse = pseudo_inverse(changes.transpose() * &along);
             form -= &along * inverse * along.transpose();
@@ -93,24 +194,106 @@ impl Figure {
                 form += bounded;
             }
         }
-        Ok(Figure {
+        Ok(Form {
             residuals,
             norm: root(form),
         })
     }
 
-    /// The square of the norm.
-    pub(crate) fn value(&self, model: &Model, unknowns: &DVector<f64>) -> f64 {
+    /// The norm of the term of a degree of the logarithm.
+    fn of_logarithm(class: HamiltonianClass, degree: usize) -> Result<Self, CertifyError> {
+        if degree > LOGARITHMS {
+            return Err(CertifyError::Order {
+                order: degree - 1,
+                limit: LOGARITHMS - 1,
+            });
+        }
+        let conditions = Conditions::of_degree(class, degree)?;
+        let residuals = Polynomials::new(&conditions);
+        let norm = root(error_form(class, &conditions, &residuals, degree, 1.0));
+        Ok(Form {
+            residuals: residuals.of_logarithm(&conditions),
+            norm,
+        })
+    }
+
+    fn value(&self, model: &Model, unknowns: &DVector<f64>) -> f64 {
         (&self.norm * self.residuals.values(&model.letters, unknowns)).norm_squared()
     }
 
-    /// The square of the norm and its gradient.
-    pub(crate) fn gradient(&self, model: &Model, unknowns: &DVector<f64>) -> (f64, DVector<f64>) {
+    fn gradient(&self, model: &Model, unknowns: &DVector<f64>) -> (f64, DVector<f64>) {
         let (residuals, slopes) = self.residuals.derivatives(&model.letters, unknowns);
         let error = &self.norm * residuals;
         let gradient = slopes.tr_mul(&self.norm.tr_mul(&error)) * 2.0;
         (error.norm_squared(), gradient)
     }
+}
+
+/// The matrix of the squared error constant of a Lie element of a degree, in its coordinates.
+fn error_form(
+    class: HamiltonianClass,
+    conditions: &Conditions,
+    residuals: &Polynomials,
+    degree: usize,
+    epsilon: f64,
+) -> DMatrix<f64> {
+    let lie = basis(degree);
+    let columns: Vec<DVector<f64>> = lie
+        .iter()
+        .map(|element| residuals.coordinates(conditions, element))
+        .collect();
+    let elements = DMatrix::from_columns(&columns);
+    let trees = Trees::up_to(TreeRule::Class(class), degree);
+    let trees: Vec<BicolouredTree> = trees.of_order(degree).collect();
+    let mut errors = DMatrix::zeros(trees.len(), lie.len());
+    for (row, tree) in trees.iter().enumerate() {
+        let words = words_of(tree);
+        let kicks = words.keys().next().map_or(0, |word| {
+            word.iter().filter(|letter| **letter == KICK).count()
+        });
+        let small = epsilon.powf(kicks as f64 - 1.0);
+        let symmetry = tree.symmetry().to_f64().unwrap_or(f64::INFINITY);
+        for (column, element) in lie.iter().enumerate() {
+            errors[(row, column)] = small * pair(&words, element) / symmetry;
+        }
+    }
+    // The errors vanish where all coordinates do, so they are a function R of these: errors = R elements.
+    let inverse = pseudo_inverse(&elements * elements.transpose());
+    let of_residuals = errors * elements.transpose() * inverse;
+    of_residuals.transpose() * of_residuals
+}
+
+/// The part of the leading error by which the harmonic oscillator is too fast, as a function of the residuals: one row.
+///
+/// For `H = (p² + q²)/2` the letters are matrices, `A = (0 1; 0 0)` and `B = (0 0; −1 0)`. A step turns by `h tr(Z (A + B))/2` too much.
+pub(crate) fn dispersion(
+    class: HamiltonianClass,
+    order: usize,
+) -> Result<Polynomials, CertifyError> {
+    let conditions = Conditions::of_degree(class, order + 1)?;
+    let residuals = Polynomials::new(&conditions);
+    let lie = basis(order + 1);
+    let columns: Vec<DVector<f64>> = lie
+        .iter()
+        .map(|element| residuals.coordinates(&conditions, element))
+        .collect();
+    let elements = DMatrix::from_columns(&columns);
+    let letters = [
+        Matrix2::new(0.0, 1.0, 0.0, 0.0),
+        Matrix2::new(0.0, 0.0, -1.0, 0.0),
+    ];
+    let flow = letters[0] + letters[1];
+    let turn = |element: &Combination| -> f64 {
+        let words = element.iter();
+        let matrices = words.map(|(word, factor)| {
+            let product = word.iter().map(|letter| letters[usize::from(*letter)]);
+            product.fold(Matrix2::identity(), |product, letter| product * letter) * *factor
+        });
+        0.5 * (matrices.sum::<Matrix2<f64>>() * flow).trace()
+    };
+    let turns = RowDVector::from_iterator(lie.len(), lie.iter().map(turn));
+    let inverse = pseudo_inverse(&elements * elements.transpose());
+    Ok(residuals.combined(&(turns * elements.transpose() * inverse)))
 }
 
 /// The words of the orders in which the vertices of a tree can be taken, children before parents.

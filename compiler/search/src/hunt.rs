@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use symplectic_compiler::certify::{CertifyError, Claim, Conditions};
 use symplectic_compiler::order::HamiltonianClass;
 
-use crate::figure::{Figure, Norm};
+use crate::figure::{Figure, Norm, dispersion};
 use crate::manifold::{Manifold, Point};
 use crate::polynomials::Polynomials;
 use crate::stability::stable_per_kick;
@@ -30,6 +30,8 @@ pub struct Problem {
     pub norm: Norm,
     /// The largest absolute value of a coefficient. It is a soft bound: a method may exceed it a little.
     pub largest: f64,
+    /// Whether the frequency of the harmonic oscillator has an error of higher order than the method: by two, of symmetric methods.
+    pub dispersion: bool,
     /// The least end of the first interval of stable `hω`, divided by the kicks.
     pub at_least_stable: f64,
 }
@@ -143,16 +145,28 @@ impl Problem {
         Model::new(self.structure, self.kicks).unknowns()
     }
 
+    /// The difference of the degrees of the two leading terms of the error, and of successive orders.
+    pub(crate) fn step(&self) -> usize {
+        if self.structure.is_symmetric() { 2 } else { 1 }
+    }
+
     /// The problem in words.
     pub(crate) fn text(&self) -> String {
         let (structure, kicks) = (self.structure.name(), self.kicks);
         let norm = match self.norm {
-            Norm::Error => "error constant",
-            Norm::ModuloConjugation => "error modulo conjugation",
-            Norm::LongRuns => "error of long runs",
+            Norm::Error => "error constant".to_owned(),
+            Norm::ModuloConjugation => "error modulo conjugation".to_owned(),
+            Norm::LongRuns => "error of long runs".to_owned(),
+            Norm::Perturbed { epsilon } => format!("error constant for ε = {epsilon}"),
+            Norm::Cost { tolerance } => format!("cost at an error of {tolerance:e}"),
+        };
+        let dispersion = if self.dispersion {
+            ", dispersion of higher order"
+        } else {
+            ""
         };
         format!(
-            "{}, {structure} with {kicks} kicks, least {norm}, coefficients up to {}, stable up to hω = {} a kick",
+            "{}{dispersion}, {structure} with {kicks} kicks, least {norm}, coefficients up to {}, stable up to hω = {} a kick",
             self.claim, self.largest, self.at_least_stable
         )
     }
@@ -163,7 +177,11 @@ impl Problem {
         Ok(Manifold {
             model: Model::new(self.structure, self.kicks),
             conditions: Polynomials::new(&conditions),
-            figure: Figure::new(class, order, self.norm)?,
+            dispersion: match self.dispersion {
+                true => Some(dispersion(class, order)?),
+                false => None,
+            },
+            figure: Figure::new(class, order, self.step(), self.norm)?,
             largest: self.largest,
         })
     }
@@ -183,6 +201,7 @@ impl Problem {
     ///     kicks: 2,
     ///     norm: Norm::Error,
     ///     largest: 1.0,
+    ///     dispersion: false,
     ///     at_least_stable: 0.0,
     /// };
     /// let mut progress = Progress::new(1);

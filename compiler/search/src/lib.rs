@@ -21,6 +21,7 @@
 //!     kicks: 6,
 //!     norm: Norm::Error,
 //!     largest: 1.0,
+//!     dispersion: false,
 //!     at_least_stable: 0.0,
 //! };
 //! let mut progress = Progress::new(1);
@@ -46,7 +47,7 @@ mod structure;
 mod trial;
 mod words;
 
-pub use command::command;
+pub use command::{Found, Options, command};
 pub use figure::Norm;
 pub use hunt::{Problem, Progress, Solution};
 pub use proof::{Method, ProofError};

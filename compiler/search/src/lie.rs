@@ -48,6 +48,34 @@ pub(crate) fn shuffle(x: &Combination, y: &Combination) -> Combination {
     sum
 }
 
+/// The coefficient of a word in a logarithm, as a combination of coefficients of words in the series itself:
+/// `Σ_k (−1)^{k−1}/k` over all ways to cut the word into `k` parts, with the shuffle of the parts.
+pub(crate) fn logarithm(word: &[u8]) -> Combination {
+    // `powers[end]`: the sum over all ways to cut the first letters into `k` parts.
+    let empty = Combination::from([(Word::new(), 1.0)]);
+    let mut powers = vec![Combination::new(); word.len() + 1];
+    powers[0] = empty;
+    let mut sum = Combination::new();
+    for k in 1..=word.len() {
+        let mut next = vec![Combination::new(); word.len() + 1];
+        for end in k..=word.len() {
+            for start in k - 1..end {
+                let part = Combination::from([(word[start..end].to_vec(), 1.0)]);
+                for (merged, factor) in shuffle(&powers[start], &part) {
+                    *next[end].entry(merged).or_default() += factor;
+                }
+            }
+        }
+        let factor = if k % 2 == 1 { 1.0 } else { -1.0 } / k as f64;
+        for (merged, count) in &next[word.len()] {
+            *sum.entry(merged.clone()).or_default() += factor * count;
+        }
+        powers = next;
+    }
+    sum.retain(|_, factor| factor.abs() > 1e-12);
+    sum
+}
+
 fn merge(left: &[u8], right: &[u8], so_far: Word, factor: f64, sum: &mut Combination) {
     let (Some((l, left_rest)), Some((r, right_rest))) = (left.split_first(), right.split_first())
     else {
@@ -79,6 +107,29 @@ mod tests {
     fn brackets_have_coefficient_one_at_their_lyndon_word() {
         for (element, word) in basis(6).iter().zip(Alphabet::splitting().lyndon(6)) {
             assert_eq!(element.get(&word), Some(&1.0));
+        }
+    }
+
+    /// `log(exp(A) exp(B)) = A + B + [A, B]/2 + [A, [A, B]]/12 + …`
+    #[test]
+    fn logarithms_are_those_of_baker_campbell_and_hausdorff() {
+        use crate::words::{Exponent, Words};
+        for (word, expected) in [
+            (vec![0, 1], 0.5),
+            (vec![1, 0], -0.5),
+            (vec![0, 0, 1], 1.0 / 12.0),
+            (vec![0, 1, 0], -1.0 / 6.0),
+        ] {
+            let combination = logarithm(&word);
+            let words: Vec<Word> = combination.keys().cloned().collect();
+            let exponents = [Exponent::Letter(0), Exponent::Letter(1)];
+            let values = Words::new(&words, &Alphabet::splitting()).values(&exponents, &[1.0, 1.0]);
+            let found: f64 = combination
+                .values()
+                .zip(values)
+                .map(|(factor, value)| factor * value)
+                .sum();
+            assert!((found - expected).abs() < 1e-14, "{word:?}: {found}");
         }
     }
 

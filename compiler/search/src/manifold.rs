@@ -11,6 +11,8 @@ use crate::structure::Model;
 pub(crate) struct Manifold {
     pub(crate) model: Model,
     pub(crate) conditions: Polynomials,
+    /// The error of the frequency of the harmonic oscillator, where it has to vanish.
+    pub(crate) dispersion: Option<Polynomials>,
     pub(crate) figure: Figure,
     /// The largest size of an unknown; beyond it the figure is penalised.
     pub(crate) largest: f64,
@@ -42,10 +44,23 @@ const RANK: f64 = 1e-9;
 const PENALTY: f64 = 300.0;
 
 impl Manifold {
+    /// The residuals of all equations, and their derivatives.
+    pub(crate) fn constraints(&self, unknowns: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (mut values, mut slopes) = self.conditions.derivatives(&self.model.steps, unknowns);
+        if let Some(dispersion) = &self.dispersion {
+            let (value, slope) = dispersion.derivatives(&self.model.letters, unknowns);
+            let last = values.len();
+            values = values.insert_row(last, value[0]);
+            slopes = slopes.insert_row(last, 0.0);
+            slopes.row_mut(last).copy_from(&slope.row(0));
+        }
+        (values, slopes)
+    }
+
     /// The nearest solution of the conditions, by steps of least norm.
     pub(crate) fn project(&self, start: &DVector<f64>, steps: usize) -> Option<DVector<f64>> {
         let mut unknowns = start.clone();
-        let (mut residuals, mut slopes) = self.conditions.derivatives(&self.model.steps, &unknowns);
+        let (mut residuals, mut slopes) = self.constraints(&unknowns);
         for _ in 0..steps {
             let size = residuals.norm();
             let mut step = least_norm(&slopes, &residuals)?;
@@ -59,7 +74,7 @@ impl Manifold {
             let mut accepted = None;
             for _ in 0..8 {
                 let next = &unknowns - &step;
-                let (values, next_slopes) = self.conditions.derivatives(&self.model.steps, &next);
+                let (values, next_slopes) = self.constraints(&next);
                 // Near the solution rounding decides.
                 if values.norm() < size || size < SOLVED {
                     accepted = Some((next, values, next_slopes));
@@ -86,7 +101,7 @@ impl Manifold {
             unknowns[*index] = *value;
         }
         for _ in 0..30 {
-            let (residuals, mut slopes) = self.conditions.derivatives(&self.model.steps, &unknowns);
+            let (residuals, mut slopes) = self.constraints(&unknowns);
             for (index, _) in fixed {
                 slopes.column_mut(*index).fill(0.0);
             }
@@ -99,7 +114,7 @@ impl Manifold {
                 return None;
             }
         }
-        let residuals = self.conditions.values(&self.model.steps, &unknowns);
+        let (residuals, _) = self.constraints(&unknowns);
         (residuals.norm() < SOLVED).then_some(unknowns)
     }
 
@@ -122,7 +137,7 @@ impl Manifold {
     /// The point, before any minimisation.
     pub(crate) fn point(&self, unknowns: DVector<f64>) -> Point {
         let value = self.objective(&unknowns).0;
-        let (_, slopes) = self.conditions.derivatives(&self.model.steps, &unknowns);
+        let (_, slopes) = self.constraints(&unknowns);
         let free = tangents(&slopes).ncols();
         Point {
             unknowns,
@@ -140,9 +155,7 @@ impl Manifold {
                 break;
             }
             let (value, gradient) = self.objective(&point.unknowns);
-            let (_, slopes) = self
-                .conditions
-                .derivatives(&self.model.steps, &point.unknowns);
+            let (_, slopes) = self.constraints(&point.unknowns);
             let basis = tangents(&slopes);
             point.free = basis.ncols();
             let reduced = basis.tr_mul(&gradient);
@@ -191,7 +204,7 @@ impl Manifold {
         const DIFFERENCE: f64 = 1e-5;
         let lagrangian = |unknowns: &DVector<f64>| {
             let (_, gradient) = self.objective(unknowns);
-            let (_, slopes) = self.conditions.derivatives(&self.model.steps, unknowns);
+            let (_, slopes) = self.constraints(unknowns);
             basis.tr_mul(&(gradient - slopes.tr_mul(multipliers)))
         };
         let columns = basis.column_iter().map(|direction| {

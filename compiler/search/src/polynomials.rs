@@ -1,9 +1,10 @@
 //! Order conditions as polynomials in the unknowns, in doubles.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 use symplectic_compiler::arithmetic::rounding::to_f64;
-use symplectic_compiler::certify::Conditions;
+use symplectic_compiler::certify::{Conditions, Word};
 
+use crate::lie::{Combination, logarithm};
 use crate::structure::Product;
 use crate::words::Words;
 
@@ -12,7 +13,7 @@ use crate::words::Words;
 pub(crate) struct Polynomials {
     words: Words,
     /// `c_w`: one row a condition, one column a word.
-    pub(crate) forms: DMatrix<f64>,
+    forms: DMatrix<f64>,
     wanted: DVector<f64>,
 }
 
@@ -29,6 +30,50 @@ impl Polynomials {
             words: Words::new(conditions.words(), conditions.alphabet()),
             wanted: DVector::from_iterator(all.len(), all.iter().map(|c| to_f64(&c.wanted))),
             forms,
+        }
+    }
+
+    /// The values of the forms of conditions for a combination of words.
+    pub(crate) fn coordinates(
+        &self,
+        conditions: &Conditions,
+        element: &Combination,
+    ) -> DVector<f64> {
+        let words = conditions.words().iter();
+        let values = words.map(|word| element.get(word).copied().unwrap_or(0.0));
+        &self.forms * DVector::from_iterator(conditions.words().len(), values)
+    }
+
+    /// The forms of conditions for the logarithm instead of the product. That of the exact flow is zero in degrees above 1.
+    pub(crate) fn of_logarithm(&self, conditions: &Conditions) -> Self {
+        let logarithms: Vec<Combination> = conditions
+            .words()
+            .iter()
+            .map(|word| logarithm(word))
+            .collect();
+        let mut words: Vec<Word> = logarithms
+            .iter()
+            .flat_map(|combination| combination.keys().cloned())
+            .collect();
+        words.sort();
+        words.dedup();
+        let of_products = DMatrix::from_fn(logarithms.len(), words.len(), |row, column| {
+            logarithms[row].get(&words[column]).copied().unwrap_or(0.0)
+        });
+        Polynomials {
+            words: Words::new(&words, conditions.alphabet()),
+            forms: &self.forms * of_products,
+            wanted: DVector::zeros(self.wanted.len()),
+        }
+    }
+
+    /// One combination of the conditions.
+    pub(crate) fn combined(&self, factors: &RowDVector<f64>) -> Self {
+        let one = |number: f64| DVector::from_element(1, number);
+        Polynomials {
+            words: self.words.clone(),
+            forms: DMatrix::from_rows(&[factors * &self.forms]),
+            wanted: one((factors * &self.wanted)[0]),
         }
     }
 

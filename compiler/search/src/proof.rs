@@ -194,9 +194,7 @@ fn shortened(
     solution: &Solution,
 ) -> Option<(DVector<f64>, Vec<(usize, usize)>)> {
     let start = DVector::from_vec(solution.unknowns.clone());
-    let (_, slopes) = manifold
-        .conditions
-        .derivatives(&manifold.model.steps, &start);
+    let (_, slopes) = manifold.constraints(&start);
     let free = leading_rows(tangents(&slopes));
     if free.is_empty() {
         let solved = manifold.project(&start, 20)?;

@@ -97,6 +97,22 @@ impl Model {
         }
     }
 
+    /// Steps whose fractions are all unknowns.
+    pub(crate) fn of_all(exponents: Vec<Exponent>) -> Self {
+        let sequence: Vec<usize> = (0..exponents.len()).collect();
+        let product = Product {
+            arguments: selection(&sequence),
+            exponents,
+        };
+        Model {
+            structure: Structure::Plain,
+            typical: DVector::zeros(sequence.len()),
+            sequence,
+            steps: product.clone(),
+            letters: product,
+        }
+    }
+
     /// The steps of `velocity-verlet`: half a kick, a drift, half a kick.
     fn composition(steps: usize) -> Self {
         let sequence: Vec<usize> = (0..steps)

@@ -1,13 +1,17 @@
 //! Methods on scenes: errors at equal cost, in long runs.
 
+use nalgebra::DVector;
 use rayon::prelude::*;
-use symplectic_compiler::certify::Claim;
+use symplectic_compiler::certify::{CertifyError, Claim, Conditions, DRIFT, KICK};
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Error, Tableau, catalogue};
+use symplectic_compiler::{Definition, Error, Key, Tableau, catalogue};
 
+use crate::figure::{Figure, Norm};
 use crate::hunt::Problem;
-use crate::proof::error_constant;
+use crate::polynomials::Polynomials;
 use crate::scenes::{Half, Kind, SCENES, Scene, State};
+use crate::structure::Model;
+use crate::words::Exponent;
 
 /// A splitting as a list of drifts and kicks, in doubles.
 #[derive(Debug, Clone)]
@@ -49,6 +53,27 @@ impl Splitting {
         }
         flows.retain(|(_, fraction)| *fraction != 0.0);
         Some(Splitting { flows, forces })
+    }
+
+    /// Force evaluations a step.
+    #[must_use]
+    pub fn forces(&self) -> usize {
+        self.forces
+    }
+
+    /// The model whose unknowns are the fractions of the step, and these fractions.
+    fn model(&self) -> (Model, DVector<f64>) {
+        let letter = |half: &Half| match half {
+            Half::Drift => DRIFT,
+            Half::Kick => KICK,
+        };
+        let exponents = self
+            .flows
+            .iter()
+            .map(|(half, _)| Exponent::Letter(letter(half)));
+        let fractions = self.flows.iter().map(|(_, fraction)| *fraction);
+        let fractions = DVector::from_iterator(self.flows.len(), fractions);
+        (Model::of_all(exponents.collect()), fractions)
     }
 
     /// The states of a run at equal distances in time, with about this many force evaluations in a unit of time.
@@ -195,43 +220,62 @@ pub struct Known {
     pub error: f64,
     /// `s C^{1/p}`.
     pub efficiency: f64,
-    /// Its tableau.
-    pub tableau: Tableau,
+    /// Its drifts and kicks.
+    pub splitting: Splitting,
 }
 
-/// The methods of the catalogue that have at least the orders of a problem and no higher order in its class, the most efficient first.
-#[must_use]
-pub fn rivals(problem: &Problem) -> Vec<Known> {
+/// Residuals of conditions that hold are smaller, of coefficients in doubles.
+const HOLDS: f64 = 1e-10;
+
+/// The methods of the catalogue that have the orders of a problem and no higher order in its class, the most efficient first.
+///
+/// Orders and error constants are those of the coefficients in doubles: the catalogue is proved already.
+///
+/// # Errors
+/// [`CertifyError::Order`] for an order that cannot be claimed.
+pub fn rivals(problem: &Problem) -> Result<Vec<Known>, CertifyError> {
     let (class, order) = problem.compared_in();
-    let entries: Vec<_> = catalogue::entries().collect();
+    let claim = match &problem.claim {
+        Claim::SymmetricBase(order) => Claim::Separable(*order),
+        claim => claim.clone(),
+    };
+    let conditions = Polynomials::new(&Conditions::new(&claim, false)?);
+    let errors =
+        [class, HamiltonianClass::Nystrom].map(|class| Figure::new(class, order, 1, Norm::Error));
+    let [figure, for_quadratic] = errors;
+    let (figure, for_quadratic) = (figure?, for_quadratic?);
     let known = |entry: catalogue::Entry| {
-        let tableau = entry.derive().ok()?;
-        let forces = tableau.evaluations()?.forces;
-        let is_rival = match &problem.claim {
-            Claim::Perturbed(orders) => tableau.perturbed_order()?.orders() == *orders,
-            // A method of higher order for quadratic T belongs to that class.
-            _ => {
-                let report = tableau.orders();
-                let is_of_order = |class| report.class(class).order == order;
-                is_of_order(class) && is_of_order(HamiltonianClass::Nystrom)
-            }
-        };
-        let error = is_rival.then(|| error_constant(&tableau, class))?;
-        let efficiency = forces as f64 * error.powf(1.0 / order as f64);
-        Some(Known {
+        let splitting = Splitting::of(&entry.derive().ok()?)?;
+        let (model, fractions) = splitting.model();
+        let error = figure.value(&model, &fractions).sqrt();
+        // A method of higher order for quadratic T belongs to that class.
+        let is_rival = conditions.values(&model.letters, &fractions).amax() < HOLDS
+            && error > HOLDS
+            && for_quadratic.value(&model, &fractions).sqrt() > HOLDS;
+        let efficiency = splitting.forces as f64 * error.powf(1.0 / order as f64);
+        is_rival.then_some(Known {
             name: entry.name,
             error,
             efficiency,
-            tableau,
+            splitting,
         })
     };
+    // Printed digits are solved for, which takes time: other orders than the claimed one are left out before.
+    let claims = |entry: &catalogue::Entry| {
+        let definition = Definition::parse(&entry.definition).ok()?;
+        let claim = definition.get(Key::Claim)?.trim_end_matches(')');
+        claim.rsplit(['(', ',']).next()?.trim().parse().ok()
+    };
+    let entries = catalogue::entries()
+        .filter(|entry| claims(entry).is_none_or(|claimed: usize| claimed == order));
+    let entries: Vec<_> = entries.collect();
     let mut known: Vec<Known> = entries.into_par_iter().filter_map(known).collect();
     known.sort_by(|x, y| {
         x.efficiency
             .total_cmp(&y.efficiency)
             .then_with(|| x.name.cmp(&y.name))
     });
-    known
+    Ok(known)
 }
 
 /// The class of a problem as a word of the command line.

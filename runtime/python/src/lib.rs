@@ -10,6 +10,7 @@ mod events;
 mod formula;
 mod method;
 mod problem;
+mod search;
 mod single;
 mod tableau;
 mod tables;
@@ -32,6 +33,8 @@ mod _native {
     use super::method::Method;
     #[pymodule_export]
     use super::problem::Problem;
+    #[pymodule_export]
+    use super::search::search;
     #[pymodule_export]
     use super::single::integrate;
     #[pymodule_export]

@@ -11,6 +11,7 @@ True
 ================================  =====================================================================================
 methods                           :func:`tableau`, :func:`splitting`, :func:`composition`, :func:`catalogue`,
                                   :func:`method`, :class:`Doubles`
+methods by design                 :func:`search`
 tables of others                  :func:`audit`, :func:`import_table`, :func:`refine`
 systems                           :func:`system`, :class:`System`
 runs                              :meth:`System.integrate`, :meth:`System.ensemble`, :meth:`System.compare`
@@ -31,6 +32,7 @@ from ._function import python_function
 from ._native import __version__
 from ._run import Run
 from ._scipy import solve_ivp
+from ._search import FoundMethod, Search, search
 from ._system import Equations, System, system
 from ._tableau import Doubles, Entry, Order, Properties, Property, Stability, Tableau, catalogue, composition, method, splitting, tableau
 from ._tables import Audit, Refinement, audit, import_table, refine
@@ -47,6 +49,7 @@ __all__ = [
     "Event",
     "Events",
     "Failure",
+    "FoundMethod",
     "Interrupted",
     "Measurement",
     "Order",
@@ -55,6 +58,7 @@ __all__ = [
     "Property",
     "Refinement",
     "Run",
+    "Search",
     "Stability",
     "States",
     "StepError",
@@ -70,6 +74,7 @@ __all__ = [
     "python_function",
     "refine",
     "run_file",
+    "search",
     "solve_ivp",
     "splitting",
     "system",
