@@ -121,6 +121,12 @@ counted! {
     SofroniouSpaletta2005S13odr6 { sofroniou-spaletta-2005-s13odr6 } "sofroniou-spaletta-2005-s13odr6" 13 13 [1, 0];
     SofroniouSpaletta2005S21odr8 { sofroniou-spaletta-2005-s21odr8 } "sofroniou-spaletta-2005-s21odr8" 21 21 [1, 0];
     SofroniouSpaletta2005S35odr10 { sofroniou-spaletta-2005-s35odr10 } "sofroniou-spaletta-2005-s35odr10" 35 35 [1, 0];
+    Pefrl { pefrl } "pefrl" 4 4 [0, 1];
+    OmelyanMryglodFolk2003Velocity5 { omelyan-mryglod-folk-2003-velocity-5 } "omelyan-mryglod-folk-2003-velocity-5" 5 5 [1, 0];
+    Ostmeyer2022Order4 { ostmeyer-2022-order-4 } "ostmeyer-2022-order-4" 5 5 [1, 0];
+    BlanesCasasEscorihuela2022A19 { blanes-casas-escorihuela-2022-a19 } "blanes-casas-escorihuela-2022-a19" 19 19 [0, 1];
+    Morales2025Y8m10b { morales-2025-y8m10b } "morales-2025-y8m10b" 21 21 [1, 0];
+    Morales2022Y10m16 { morales-2022-y10m16 } "morales-2022-y10m16" 33 33 [1, 0];
     Saba5 { saba-5 } "saba-5" 5 5 [0, 1];
     Saba6 { saba-6 } "saba-6" 6 6 [0, 1];
     Saba7 { saba-7 } "saba-7" 7 7 [0, 1];

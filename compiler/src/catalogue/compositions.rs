@@ -274,4 +274,35 @@ pub(super) const ROWS: &[Row] = &[
                  Optim. Methods Softw. 20 (2005), order 10 with 35 stages; Hairer, Lubich & Wanner, Geometric \
                  Numerical Integration, §V.3.2",
     },
+    Row {
+        name: "morales-2025-y8m10b",
+        title: "21 steps of Störmer–Verlet, order 8",
+        definition: "base: velocity-verlet, weights: [0.44370228726021218923197141183196, \
+                     -0.39443578322284085764474498594073, 0.1464645610975800618712569230326, \
+                     0.11575566589480463220616543972403, -0.37349605088056728482635987352576, \
+                     0.27793149999039524816733903301747, 0.12231011868707029786561397542663, \
+                     0.57503350160061785946141563279891, -0.57896999331780988041471955125778, \
+                     0.10467636532245895252340732579853, 0.12205565513615756311730933818828], symmetric: true, claim: \
+                     separable(8)",
+        stages: &[22],
+        source: "Morales, Costa, Pantaleoni, Burgarth, Sanders & Berry, Selection and improvement of product formulae \
+                 for best performance of quantum simulation, Quantum Inf. Comput. 25 (2025), table 1, Y8m10b",
+    },
+    Row {
+        name: "morales-2022-y10m16",
+        title: "33 steps of Störmer–Verlet, order 10",
+        definition: "base: velocity-verlet, weights: [0.081207318210272593225087711441684, \
+                     0.20411874474696598289603677693511, 0.66715205827214320371061839297055, \
+                     0.15414691779958299150286452215575, -0.15843692473786584550599206557006, \
+                     -0.6855442489606141359108973267028, 0.060999140559210408869096992291531, \
+                     -0.26441199183146805554735845490359, 0.13064273069786247787208895471461, \
+                     0.20218952619073117554714280367018, -0.34622976933123177430694714630668, \
+                     0.98855187532756405235733957305613, -0.98828132118546184603769781410676, \
+                     0.34781541068705330937913890281003, 0.2904317222970121479878414292093, \
+                     -0.4945013179955571856347147977644, 0.62030025850760099919270309219883], symmetric: true, claim: \
+                     separable(10)",
+        stages: &[34],
+        source: "Morales, Costa, Pantaleoni, Burgarth, Sanders & Berry, Greatly improved higher-order product formulae \
+                 for quantum simulation, arXiv 2210.15817v2 (2022), order 10 with m = 16",
+    },
 ];

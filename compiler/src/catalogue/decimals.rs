@@ -92,4 +92,51 @@ pub(super) const ROWS: &[Row] = &[
         source: "Okunbor & Skeel, Canonical Runge–Kutta–Nyström methods of orders five and six, J. Comput. Appl. \
                  Math. 51 (1994), method 13",
     },
+    Row {
+        name: "pefrl",
+        title: "four kicks a step, order 4, drifts first",
+        definition: "kick: [0.7123418310626056, -0.2123418310626054], drift: [0.1786178958448091, \
+                     -0.06626458266981849, 0.77529337365001878], first: drift, symmetric: true, claim: separable(4)",
+        stages: &[5],
+        source: "Omelyan, Mryglod & Folk, Optimized Forest–Ruth- and Suzuki-like algorithms for integration of motion \
+                 in many-body systems, Comput. Phys. Commun. 146 (2002), the position extended Forest–Ruth-like \
+                 algorithm; ξ, λ and χ there are here the first drift, the second kick and the second drift",
+    },
+    Row {
+        name: "omelyan-mryglod-folk-2003-velocity-5",
+        title: "five kicks a step, order 4",
+        definition: "kick: [0.08398315262876693, 0.6822365335719091, -0.26621968620067603], drift: \
+                     [0.2539785108410595, -0.03230286765269967, 0.55664871362328034], symmetric: true, claim: \
+                     separable(4)",
+        stages: &[6],
+        source: "Omelyan, Mryglod & Folk, Symplectic analytically integrable decomposition algorithms, Comput. Phys. \
+                 Commun. 151 (2003), equations 63 and 71, variant 8; OMF4 of programs for lattice field theory",
+    },
+    Row {
+        name: "ostmeyer-2022-order-4",
+        title: "five kicks a step, order 4",
+        definition: "kick: [0.09257547473195787, 0.4627160310210738, -0.05529150575303167], drift: \
+                     [0.2540996315529392, -0.1676517240119692, 0.82710418491806], symmetric: true, claim: \
+                     separable(4)",
+        stages: &[6],
+        source: "Ostmeyer, Optimised Trotter decompositions for classical and quantum computing, J. Phys. A 56 (2023), \
+                 arXiv 2211.02691, equation 40",
+    },
+    Row {
+        name: "blanes-casas-escorihuela-2022-a19",
+        title: "19 kicks a step, order 8 for quadratic T",
+        definition: "kick: [0.129478606560536730662493794395, 0.222257260092671143423043559581, \
+                     -0.0577514893325147204757023246320, -0.0578312262103924910221345032763, \
+                     0.103087297437175356747933252265, -0.140819612554090768205554103887, \
+                     0.0234462603492826276699713718626, 0.134854517356684096617882205068, \
+                     0.0287973821073779306345172160211, 0.2289620083865401878950990652052], drift: [0.0505805, \
+                     0.149999, -0.0551795510771615573511026950361, 0.423755898835337951482264998051, \
+                     -0.213495353584659048059672194633, -0.0680769774574032619111630736274, \
+                     0.227917056974013435948887201671, -0.235373619381058906524740047732, \
+                     0.387413869179878047816794031058, -0.1675408234889466614012682197515], first: drift, symmetric: \
+                     true, claim: nystrom(8)",
+        stages: &[20],
+        source: "Blanes, Casas & Escorihuela-Tomàs, Runge–Kutta–Nyström symplectic splitting methods of order 8, Appl. \
+                 Numer. Math. 182 (2022), arXiv 2202.01541, table 4, A₁₉",
+    },
 ];

@@ -174,7 +174,8 @@ impl Value {
         self.add(&other.negate()?)
     }
 
-    pub(super) fn multiply(&self, other: &Self) -> Result<Self, ErrorKind> {
+    /// The product.
+    pub fn multiply(&self, other: &Self) -> Result<Self, ErrorKind> {
         let (x, y) = (self.rational().abs(), other.rational().abs());
         Ok(Value {
             constant: self.constant.multiply(&other.constant)?,

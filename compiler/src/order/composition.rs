@@ -6,9 +6,9 @@
 //! these letters up to the degree p are those of `exp(hE₁)`: see [`Conditions`](crate::certify::Conditions).
 
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
-use crate::algebra::{Balls, Constants, Field, Rationals};
+use crate::algebra::{Ball, Balls, Constants, Field, Rationals};
 use crate::arithmetic::rational::ratio;
 use crate::certify::{Alphabet, MAX_ORDER};
 use crate::evidence::Evidence;
@@ -77,11 +77,28 @@ fn holds_over<F: Field>(
 /// The order of a composition of any method of order 1, or of any symmetric one, with these fractions, as far as conditions of at most this
 /// residual tell.
 pub fn order_within(fractions: &[BigRational], symmetric: bool, tolerance: &BigRational) -> usize {
-    let steps = vec![(0, false); fractions.len()];
     let near = |x: &BigRational, wanted: &BigRational| (x - wanted).abs() <= *tolerance;
+    if tolerance.is_zero() {
+        return highest_order(&Rationals, fractions, symmetric, near);
+    }
+    // Sums of long products of long decimals; their last digits do not matter.
+    let balls = Balls::new(BITS);
+    let fractions: Vec<Ball> = fractions.iter().map(|x| balls.rational(x)).collect();
+    highest_order(&balls, &fractions, symmetric, |x: &Ball, wanted| {
+        near(&x.interval(BITS).middle(), wanted)
+    })
+}
+
+fn highest_order<F: Field>(
+    field: &F,
+    fractions: &[F::Element],
+    symmetric: bool,
+    is: impl Fn(&F::Element, &BigRational) -> bool,
+) -> usize {
+    let steps = vec![(0, false); fractions.len()];
     let holds = |order: &usize| {
         let letters = letters(&[symmetric], *order);
-        all_hold(&Rationals, &steps, fractions, &letters, *order, near)
+        all_hold(field, &steps, fractions, &letters, *order, &is)
     };
     (1..=MAX_ORDER).take_while(holds).last().unwrap_or(0)
 }

@@ -19,7 +19,7 @@ fn table(convention: &str, claim: &str, numbers: &str) -> Result<Row, Error> {
     Ok(audit.rows.swap_remove(0))
 }
 
-/// A table of a file of `tableaux/libraries/`, stepped as by another library.
+/// A table of a file of `tableaux/libraries/`, stepped as by another library or by steps of a file.
 fn library_row(file: &str, name: &str, convention: &str) -> Row {
     let text = std::fs::read_to_string(format!("{FOLDER}/{file}.toml")).expect("read");
     let at = text
@@ -35,9 +35,11 @@ fn library_row(file: &str, name: &str, convention: &str) -> Row {
             table = table.replace(letter, other);
         }
     }
-    let head = format!(
-        "library = \"L\"\nversion = \"V\"\nsource = \"S\"\nconvention = \"{convention}\"\n"
-    );
+    let convention = match convention.starts_with('[') {
+        true => convention.to_owned(),
+        false => format!("convention = \"{convention}\""),
+    };
+    let head = format!("library = \"L\"\nversion = \"V\"\nsource = \"S\"\n{convention}\n");
     let mut audit = Audit::default();
     audit
         .add("tables.toml", &(head + &table), &Limits::default())
@@ -96,6 +98,8 @@ fn the_audit_finds_exactly_the_known_deviations_of_the_libraries() {
         .map(|(library, count)| format!("{library}: {count}"))
         .collect();
     expect_test::expect![[r#"
+        AMUSE Huayno: 8
+        AMUSE symple: 7
         Boost.Numeric.Odeint: 3
         OrdinaryDiffEqSymplecticRK of SciML: 18
         PETSc TSBASICSYMPLECTIC: 8
@@ -103,8 +107,14 @@ fn the_audit_finds_exactly_the_known_deviations_of_the_libraries() {
         REBOUND: 21
         RungeKutta.jl: 79
         SUNDIALS ARKODE SPRKStep: 12
+        SUNDIALS ARKODE SplittingStep: 8
+        TeNPy: 4
+        galpy: 3
+        jorbit: 3
         nodepy: 2
-        pyHamSys: 19"#]]
+        pyHamSys: 19
+        scirs2-integrate: 7
+        xsuite: 4"#]]
     .assert_eq(&tables.join("\n"));
     let mut differences: Vec<String> = Vec::new();
     for row in rows.iter().filter(|row| row["verdict"] != "as_claimed") {
@@ -143,8 +153,10 @@ fn the_audit_finds_exactly_the_known_deviations_of_the_libraries() {
         CalvoSanz4: 4 separable, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
         McAte42: 4 separable, proved 1 for T(p) + U(q), 1 for quadratic T, not p[q]
         McAte5: 5 nystrom, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
+        CompositionMethod::eighth_order: 8 separable, proved 0 for T(p) + U(q), 0 for quadratic T, not q
         ARKODE_SPRK_MCLACHLAN_4_4: 4 separable, proved 3 for T(p) + U(q), 4 for quadratic T, not q[p,p,p]
-        ARKODE_SPRK_MCLACHLAN_5_6: 5 separable, proved 3 for T(p) + U(q), 5 for quadratic T, not q[p,p,p]"#]]
+        ARKODE_SPRK_MCLACHLAN_5_6: 5 separable, proved 3 for T(p) + U(q), 5 for quadratic T, not q[p,p,p]
+        yoshida4: 4 separable, proved 6 for T(p) + U(q), 6 for quadratic T, not q[p^6]"#]]
     .assert_eq(&differences.join("\n"));
     // The method of SciML of order 4 by its name which is in no class of it.
     let row = |name: &str| rows.iter().find(|row| row["name"] == name).expect(name);
@@ -218,6 +230,98 @@ fn the_convention_decides_whether_pyhamsys_kicks_or_drifts_first() {
     assert!(kick.convention.starts_with("kick b_i, drift a_i ("));
     assert!(drift.convention.starts_with("drift b_i, kick a_i ("));
     assert_eq!((kick.separable.order, drift.separable.order), (2, 2));
+}
+
+/// A file names its own lists: of drifts and kicks, of half of them, and of the fractions of a composition.
+#[test]
+fn steps_of_a_file_are_the_lists_that_it_names() {
+    let claim = "order = 4\nclass = \"separable\"";
+    let steps = |keys: &str| format!("[steps]\n{keys}\nevidence = \"E\"");
+    let (w, middle) = ("1/(2 - cbrt(2))", "-cbrt(2)/(2 - cbrt(2))");
+    for (keys, numbers, words) in [
+        (
+            "drift = \"c\"\nkick = \"d\"\nfirst = \"kick\"",
+            format!(
+                "c = [\"{w}\", \"{middle}\", \"{w}\", \"0\"]\nd = [\"{w}/2\", \"({w} + {middle})/2\", \"({w} + {middle})/2\", \"{w}/2\"]"
+            ),
+            "kick d_i, drift c_i (E)",
+        ),
+        (
+            "drift = \"c\"\nkick = \"d\"\nfirst = \"drift\"\nsymmetric = true",
+            format!("c = [\"{w}/2\", \"({w} + {middle})/2\"]\nd = [\"{w}\", \"{middle}\"]"),
+            "drift c_i, kick d_i, and back (E)",
+        ),
+        (
+            "weights = \"w\"\nbase = \"velocity-verlet\"",
+            format!("w = [\"{w}\", \"{middle}\", \"{w}\"]"),
+            "velocity-verlet by the fractions w_i (E)",
+        ),
+        (
+            "weights = \"w\"\nbase = \"position-verlet\"\nsymmetric = true",
+            format!("w = [\"{w}\"]"),
+            "position-verlet by the fractions w_i, and back (E)",
+        ),
+    ] {
+        let row = table(&steps(keys), claim, &numbers).expect(keys);
+        assert_eq!((row.separable.order, row.verdict), (4, Verdict::AsClaimed));
+        assert_eq!(row.convention, words);
+    }
+    let numbers = "c = [\"1/2\", \"1/2\"]\nd = [\"1\"]\nw = [\"1\"]";
+    for (keys, message) in [
+        (
+            "convention = \"sundials\"\n[steps]\ndrift = \"c\"\nkick = \"d\"\nevidence = \"E\""
+                .to_owned(),
+            "`convention` and `[steps]` both state how numbers are stepped",
+        ),
+        (
+            steps("drift = \"c\"\nweights = \"w\""),
+            "`[steps]` has `drift` and `kick`, with `first` if the lists are equally long, or `weights` and `base`",
+        ),
+        (
+            steps("drift = \"c\"\nkick = \"d\"\nfirst = \"last\""),
+            "unknown variant `last`, expected `drift` or `kick`",
+        ),
+        (
+            steps("drift = \"c\"\nkick = \"k\""),
+            "`[steps]` has no numbers `d`; it has c, k",
+        ),
+        (
+            steps("weights = \"w\"\nbase = \"gauss-2\""),
+            "`[steps]` has no numbers `c`; it has w",
+        ),
+    ] {
+        let error = table(&keys, claim, numbers).expect_err(message);
+        assert!(error.to_string().contains(message), "{error}");
+    }
+    let implicit = table(
+        &steps("weights = \"w\"\nbase = \"gauss-2\""),
+        claim,
+        "w = [\"1\"]",
+    );
+    let error = implicit.expect_err("implicit").to_string();
+    assert!(
+        error.contains("the base of a composition must be a splitting"),
+        "{error}"
+    );
+}
+
+/// The composition of scirs2-integrate of order 8 has its middle weight twice: its sum is 0.2031 instead of 1. With this weight once it is a
+/// method of order 8.
+#[test]
+fn the_middle_weight_of_scirs2_written_twice_leaves_order_0() {
+    let convention =
+        "[steps]\nweights = \"coefficients\"\nbase = \"velocity-verlet\"\nevidence = \"E\"";
+    let orders = [("CompositionMethod::eighth_order", 0), ("Yoshida8", 8)];
+    for (name, order) in orders {
+        let row = library_row("scirs2", name, convention);
+        let found = (row.separable.order, row.nystrom.order, row.explained);
+        assert_eq!(found, (order, order, true), "{name}");
+        assert_eq!(row.claim.order, 8, "{name}");
+    }
+    let row = library_row("scirs2", "CompositionMethod::eighth_order", convention);
+    // The middle weight.
+    let residual = row.separable.residual.expect("a residual");
+    assert!(residual.starts_with("-0.79688793935"), "{residual}");
 }
 
 /// The methods of pyHamSys for quadratic T have order 4 instead of 6 where the other part goes first.

@@ -1,25 +1,21 @@
 //! Reading a file of tables.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::convention::{Convention, Steps};
+use super::lists::{Lists, Table};
 use super::row::{Claim, Row, Source};
-use crate::import::{Flows, Numbers, half};
 use symplectic_compiler::Library;
 use symplectic_compiler::Limits;
 use symplectic_compiler::expression::Input;
-use symplectic_compiler::inside::Notation;
 use symplectic_compiler::inside::first_line;
 use symplectic_compiler::inside::shown;
 use symplectic_compiler::inside::with_suggestion;
-use symplectic_compiler::inside::{Value, value_of};
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Error, ErrorKind};
-
-type List = Spanned<Vec<Spanned<String>>>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +24,7 @@ struct Keys {
     version: String,
     source: String,
     convention: Option<Spanned<String>>,
+    steps: Option<Spanned<Steps>>,
     table: Vec<TableKeys>,
 }
 
@@ -38,7 +35,7 @@ struct TableKeys {
     order: usize,
     class: Spanned<String>,
     note: Option<String>,
-    numbers: BTreeMap<String, List>,
+    numbers: Table,
 }
 
 /// The rows of a file.
@@ -47,24 +44,16 @@ pub(super) fn rows(file: Input<'_>, limits: &Limits) -> Result<Vec<Row>, Error> 
         let message = format!("not a file of tables: {}", with_suggestion(error.message()));
         wrong(file, error.span().unwrap_or(0..0), message)
     })?;
-    let Some(convention) = &keys.convention else {
-        let known = Library::ALL.map(Library::name).join(", ");
-        let message = format!(
-            "`convention` is missing: whether kicks or drifts come first, and which numbers they are, must be stated; one of {known}"
-        );
-        return Err(wrong(file, 0..0, message));
-    };
-    let library = Library::find(convention.get_ref())
-        .map_err(|error| file.error(&first_line(file.text, convention.span()), *error.kind))?;
+    let convention = convention(file, keys.convention, keys.steps)?;
     let source = Source {
         library: keys.library,
         version: keys.version,
         source: keys.source,
-        convention: library,
+        convention: convention.text(),
     };
     let row = |table: &TableKeys| {
         let class = class(file, &table.class)?;
-        let numbers = numbers(file, library, table, limits)?;
+        let numbers = convention.numbers(&Lists::new(file, &table.name, &table.numbers), limits)?;
         let claim = Claim {
             order: table.order,
             class,
@@ -79,6 +68,39 @@ pub(super) fn rows(file: Input<'_>, limits: &Limits) -> Result<Vec<Row>, Error> 
         )
     };
     keys.table.iter().map(row).collect()
+}
+
+/// How the numbers of a file are stepped.
+fn convention(
+    file: Input<'_>,
+    library: Option<Spanned<String>>,
+    steps: Option<Spanned<Steps>>,
+) -> Result<Convention, Error> {
+    match (library, steps) {
+        (Some(name), None) => {
+            let library = Library::find(name.get_ref())
+                .map_err(|error| file.error(&first_line(file.text, name.span()), *error.kind))?;
+            Ok(Convention::Library(library))
+        }
+        (None, Some(steps)) => {
+            let span = steps.span();
+            let convention = steps.into_inner().convention();
+            convention.map_err(|message| wrong(file, span, message))
+        }
+        (None, None) => {
+            let known = Library::ALL.map(Library::name).join(", ");
+            let message = format!(
+                "`convention` is missing: whether kicks or drifts come first, and which numbers they are, must be stated; one of {known}, \
+                 or `[steps]` with the names of the lists"
+            );
+            Err(wrong(file, 0..0, message))
+        }
+        (Some(name), Some(_)) => {
+            let message = "`convention` and `[steps]` both state how numbers are stepped: keep one"
+                .to_owned();
+            Err(wrong(file, name.span(), message))
+        }
+    }
 }
 
 fn wrong(file: Input<'_>, span: Range<usize>, message: String) -> Error {
@@ -101,71 +123,4 @@ fn class(file: Input<'_>, name: &Spanned<String>) -> Result<HamiltonianClass, Er
         };
         file.error(&first_line(file.text, name.span()), kind)
     })
-}
-
-/// The numbers of a table, with the library's letters.
-fn numbers(
-    file: Input<'_>,
-    library: Library,
-    table: &TableKeys,
-    limits: &Limits,
-) -> Result<Numbers, Error> {
-    let at_name = |kind: ErrorKind| file.error(&first_line(file.text, table.name.span()), kind);
-    let list = |name: &str| -> Result<Vec<Value>, Error> {
-        let missing = || ErrorKind::Document {
-            message: format!(
-                "the numbers `{name}` are missing, which `{}` has",
-                library.name()
-            ),
-        };
-        let list = table.numbers.get(name).ok_or_else(|| at_name(missing()))?;
-        let values = list.get_ref().iter().map(|text| {
-            // Without the quotes.
-            let span = text.span();
-            value_of(
-                file,
-                span.start + 1..span.end.saturating_sub(1),
-                Notation::Julia,
-            )
-        });
-        values.collect()
-    };
-    let allowed: Vec<&str> = match library.stepping() {
-        Some(stepping) => vec![stepping.drift, stepping.kick],
-        None => vec!["a", "b", "a_tilde", "b_tilde"],
-    };
-    if let Some(name) = table
-        .numbers
-        .keys()
-        .find(|name| !allowed.contains(&name.as_str()))
-    {
-        let message = format!(
-            "`{}` has no numbers `{}`; it has {}",
-            library.name(),
-            shown(name),
-            allowed.join(", ")
-        );
-        return Err(at_name(ErrorKind::Document { message }));
-    }
-    if let Some(stepping) = library.stepping() {
-        let (drifts, kicks) = (list(stepping.drift)?, list(stepping.kick)?);
-        return Numbers::splitting(&Flows::from(&stepping), drifts, kicks, limits).map_err(at_name);
-    }
-    let halves = |a: &str, b: &str| -> Result<_, Error> {
-        let matrix = list(a)?;
-        half(matrix, list(b)?, None, limits).map_err(at_name)
-    };
-    let momenta = match table.numbers.contains_key("a_tilde") {
-        true => Some(halves(
-            "a_tilde",
-            if table.numbers.contains_key("b_tilde") {
-                "b_tilde"
-            } else {
-                "b"
-            },
-        )?),
-        false => None,
-    };
-    let positions = halves("a", "b")?;
-    Ok(Numbers::RungeKutta { positions, momenta })
 }

@@ -16,13 +16,31 @@
 //! ahat = ["7/24", "3/4", "-1/24"]
 //! ```
 //!
+//! Instead of `convention`, `[steps]` names the lists of a file and says where their order is documented:
+//!
+//! ```toml
+//! [steps]                            # half of a step: drift c_1, kick d_1, …, and back
+//! drift = "c"
+//! kick = "d"
+//! first = "drift"
+//! symmetric = true
+//! evidence = "leapfrog_step"
+//!
+//! [steps]                            # in another file: the fractions of the steps of a splitting
+//! weights = "w"
+//! base = "velocity-verlet"
+//! evidence = "CompositionMethod::step"
+//! ```
+//!
 //! For each table the order for each class of Hamiltonians is proved, with the first violated order condition, and whether
 //! it is symmetric and symplectic. Its decimals are compared with those of the exact method near them. The report also has the order
 //! that is [observed](symplectic_compiler::Tableau::observed_order) on a pendulum of each class. A difference between claim and proof that is not observed
 //! is reported as unexplained.
 
+mod convention;
 mod file;
 mod html;
+mod lists;
 mod row;
 
 pub use row::{Claim, ProvedOrder, Row, Verdict};
@@ -70,7 +88,7 @@ impl Audit {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Document`](symplectic_compiler::ErrorKind::Document) for a file that does not have this form, for example without a `convention`;
+    /// [`ErrorKind::Document`](symplectic_compiler::ErrorKind::Document) for a file that does not have this form, for example without `convention` and `[steps]`;
     /// [`ErrorKind::Unknown`](symplectic_compiler::ErrorKind::Unknown) for an unknown convention or class;
     /// [`ErrorKind::Syntax`](symplectic_compiler::ErrorKind::Syntax) for the first text that is not a number. Each with its place.
     pub fn add(&mut self, file_name: &str, text: &str, limits: &Limits) -> Result<(), Error> {

@@ -7,7 +7,6 @@ use serde::{Serialize, Serializer};
 
 use crate::import::{Numbers, Origin};
 use symplectic_compiler::Error;
-use symplectic_compiler::Library;
 use symplectic_compiler::Limits;
 use symplectic_compiler::inside::evidence_text;
 use symplectic_compiler::order::{ClassOrder, HamiltonianClass, Pendulum};
@@ -20,7 +19,7 @@ pub(super) struct Source {
     pub library: String,
     pub version: String,
     pub source: String,
-    pub convention: Library,
+    pub convention: String,
 }
 
 /// The claim of a library about a table.
@@ -185,7 +184,7 @@ impl Row {
             library: source.library.clone(),
             version: source.version.clone(),
             source: source.source.clone(),
-            convention: convention(source.convention),
+            convention: source.convention.clone(),
             name: name.to_owned(),
             claim,
             note,
@@ -224,26 +223,6 @@ impl Row {
             HamiltonianClass::General => &self.general,
             HamiltonianClass::Separable => &self.separable,
             HamiltonianClass::Nystrom => &self.nystrom,
-        }
-    }
-}
-
-/// How a library steps its numbers, in words.
-fn convention(library: Library) -> String {
-    match library.stepping() {
-        None => "a Runge–Kutta table".to_owned(),
-        Some(stepping) => {
-            let (drift, kick) = (
-                format!("drift {}_i", stepping.drift),
-                format!("kick {}_i", stepping.kick),
-            );
-            let (first, second) = if stepping.drifts_first {
-                (drift, kick)
-            } else {
-                (kick, drift)
-            };
-            let back = if stepping.mirrored { ", and back" } else { "" };
-            format!("{first}, {second}{back} ({})", stepping.evidence)
         }
     }
 }

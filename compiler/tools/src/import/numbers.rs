@@ -11,11 +11,12 @@ use symplectic_compiler::Limits;
 use symplectic_compiler::Stepping;
 use symplectic_compiler::Tableau;
 use symplectic_compiler::algebra::{Dense, Number, Rationals};
+use symplectic_compiler::expression::Input;
 use symplectic_compiler::inside::check_stages;
 use symplectic_compiler::inside::order_within;
 use symplectic_compiler::inside::shown;
 use symplectic_compiler::inside::{LowerTriangular, Partitioned};
-use symplectic_compiler::inside::{PLACES, Value, zero};
+use symplectic_compiler::inside::{Notation, PLACES, Value, value_of, zero};
 use symplectic_compiler::order::{HamiltonianClass, OrderOptions, ViolatedCondition};
 use symplectic_compiler::{Definition, Key};
 use symplectic_compiler::{Error, ErrorKind};
@@ -183,6 +184,39 @@ impl Numbers {
             kicks,
             drifts_first: flows.drifts_first,
         })
+    }
+
+    /// The drifts and kicks of the steps of a splitting by these fractions, one after the other.
+    pub fn composition(
+        base: &Tableau,
+        weights: &[Value],
+        limits: &Limits,
+    ) -> Result<Self, ErrorKind> {
+        let flows = flows(base).ok_or_else(|| ErrorKind::Document {
+            message: "the base of a composition must be a splitting of exact drifts and kicks, such as velocity-verlet".to_owned(),
+        })?;
+        let mut steps: Vec<(bool, Value)> = Vec::new();
+        for weight in weights {
+            for (drift, fraction) in &flows {
+                let flow = fraction.multiply(weight)?;
+                match steps.last_mut() {
+                    Some((last, sum)) if last == drift => *sum = sum.add(&flow)?,
+                    _ => steps.push((*drift, flow)),
+                }
+            }
+        }
+        let drifts_first = steps.first().is_some_and(|(drift, _)| *drift);
+        let list = |wanted: bool| -> Vec<Value> {
+            let steps = steps.iter().filter(|(drift, _)| *drift == wanted);
+            steps.map(|(_, flow)| flow.clone()).collect()
+        };
+        let names = Flows {
+            drift: "drift",
+            kick: "kick",
+            drifts_first,
+            mirrored: false,
+        };
+        Numbers::splitting(&names, list(true), list(false), limits)
     }
 
     /// All numbers.
@@ -602,6 +636,28 @@ fn alone(tableau: Tableau, (rows, weights): &Half, limits: &Limits) -> Option<Ta
         (Key::B, list(b)?),
     ];
     Definition::new(parts).derive(limits).ok()
+}
+
+/// The drifts (`true`) and kicks of a splitting with exact coefficients, in their order.
+fn flows(tableau: &Tableau) -> Option<Vec<(bool, Value)>> {
+    tableau.exact().lower_triangular()?;
+    let drifts_first = tableau_starts_with_drift(tableau);
+    let forms = tableau.exact_forms();
+    let mut flows = Vec::new();
+    for (drift, kick) in forms.b.into_iter().zip(forms.b_tilde) {
+        let value = |text: String| {
+            let input = Input::of_file("base", &text);
+            value_of(input, 0..text.len(), Notation::Julia).ok()
+        };
+        let pair = [(true, value(drift?)?), (false, value(kick?)?)];
+        let (first, second) = pair.into();
+        flows.extend(match drifts_first {
+            true => [first, second],
+            false => [second, first],
+        });
+    }
+    flows.retain(|(_, value)| !value.rational().is_zero());
+    Some(flows)
 }
 
 /// Whether a stage of a splitting drifts before it kicks.

@@ -91,44 +91,80 @@ pub fn import_own(
             input.error(&(0..0), ErrorKind::Document { message })
         })
     };
+    let at = |name: &str, kind: ErrorKind| input.error(&source.place(name), kind);
     match names {
-        OwnNames::Splitting {
-            drift,
-            kick,
-            drifts_first,
-            symmetric,
-        } => {
-            let (drifts, kicks) = (list(drift)?, list(kick)?);
-            let at_kick = |kind: ErrorKind| input.error(&source.place(kick), kind);
-            let longer = match drifts.len().cmp(&kicks.len()) {
-                std::cmp::Ordering::Less => Some(false),
-                std::cmp::Ordering::Equal => None,
-                std::cmp::Ordering::Greater => Some(true),
-            };
-            let drifts_first = drifts_first.or(longer).ok_or_else(|| {
-                let message = "as many drifts as kicks: which of them come first must be stated";
-                let message = message.to_owned();
-                at_kick(ErrorKind::Document { message })
-            })?;
-            let flows = Flows {
-                drift,
-                kick,
-                drifts_first,
-                mirrored: *symmetric,
-            };
-            let numbers = Numbers::splitting(&flows, drifts, kicks, limits).map_err(at_kick)?;
-            outcome(&numbers, limits)
-        }
+        OwnNames::Splitting { .. } => outcome(&names.numbers(list, at, limits)?, limits),
         OwnNames::Composition {
             base,
             weights,
             symmetric,
         } => {
-            let values = list(weights)?;
-            let at_weights = |kind: ErrorKind| input.error(&source.place(weights), kind);
-            let values = whole(values, *symmetric).map_err(at_weights)?;
+            let at_weights = |kind: ErrorKind| at(weights, kind);
+            let values = whole(list(weights)?, *symmetric).map_err(at_weights)?;
             check_stages(&values.len().into(), limits).map_err(at_weights)?;
             composed(base, &values, limits)
+        }
+    }
+}
+
+impl OwnNames {
+    /// The names.
+    pub(crate) fn lists(&self) -> Vec<&str> {
+        match self {
+            OwnNames::Splitting { drift, kick, .. } => vec![drift, kick],
+            OwnNames::Composition { weights, .. } => vec![weights],
+        }
+    }
+
+    /// The drifts and kicks of a step, whatever their sums. Those of a composition are the ones of its base, which must be a splitting.
+    pub(crate) fn numbers(
+        &self,
+        list: impl Fn(&str) -> Result<Vec<Value>, Error>,
+        at: impl Fn(&str, ErrorKind) -> Error,
+        limits: &Limits,
+    ) -> Result<Numbers, Error> {
+        match self {
+            OwnNames::Splitting {
+                drift,
+                kick,
+                drifts_first,
+                symmetric,
+            } => {
+                let (drifts, kicks) = (list(drift)?, list(kick)?);
+                let at_kick = |kind: ErrorKind| at(kick, kind);
+                let longer = match drifts.len().cmp(&kicks.len()) {
+                    std::cmp::Ordering::Less => Some(false),
+                    std::cmp::Ordering::Equal => None,
+                    std::cmp::Ordering::Greater => Some(true),
+                };
+                let drifts_first = drifts_first.or(longer).ok_or_else(|| {
+                    let message =
+                        "as many drifts as kicks: which of them come first must be stated";
+                    let message = message.to_owned();
+                    at_kick(ErrorKind::Document { message })
+                })?;
+                let flows = Flows {
+                    drift,
+                    kick,
+                    drifts_first,
+                    mirrored: *symmetric,
+                };
+                Numbers::splitting(&flows, drifts, kicks, limits).map_err(at_kick)
+            }
+            OwnNames::Composition {
+                base,
+                weights,
+                symmetric,
+            } => {
+                let at_weights = |kind: ErrorKind| at(weights, kind);
+                let values = list(weights)?;
+                let values = match symmetric {
+                    true => whole(values, true).map_err(at_weights)?,
+                    false => values,
+                };
+                let base = Definition::new([(Key::Base, base.clone())]).derive(limits)?;
+                Numbers::composition(&base, &values, limits).map_err(at_weights)
+            }
         }
     }
 }
@@ -179,11 +215,14 @@ fn whole(values: Vec<Value>, symmetric: bool) -> Result<Vec<Value>, ErrorKind> {
             let fractions: Vec<BigRational> = all.iter().map(Value::rational).collect();
             order_of_composition_within(&fractions, true, &tolerance(all))
         };
-        let both = [&outwards, &values].map(|list| mirrored(list, std::slice::from_ref(&middle)));
-        if let Some(found) = both
+        let both = [&outwards, &values].map(|list| {
+            let all = mirrored(list, std::slice::from_ref(&middle));
+            (order(&all), all)
+        });
+        if let Some((_, found)) = both
             .into_iter()
-            .max_by_key(order)
-            .filter(|all| order(all) > 2)
+            .filter(|(order, _)| *order > 2)
+            .max_by_key(|(order, _)| *order)
         {
             return Ok(found);
         }
