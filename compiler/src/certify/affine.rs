@@ -8,6 +8,7 @@ use num_traits::Zero;
 use super::certificate::{Certificate, Solution};
 use super::conditions::Claim;
 use super::structure::Coefficient;
+use super::system::Step;
 use crate::arithmetic::interval::Interval;
 
 /// `c + Σ_i f_i x_i`
@@ -87,7 +88,14 @@ impl Certificate {
         };
         let composition = self.structure().composition();
         let steps = enclosed.steps().iter();
-        let weights = composition.then(|| steps.map(|step| self.argument(step.argument)).collect());
+        let weight = |step: &Step| {
+            let argument = self.argument(step.argument);
+            match step.negative {
+                true => argument.scaled(&BigRational::from_integer((-1).into())),
+                false => argument,
+            }
+        };
+        let weights = composition.then(|| steps.map(weight).collect());
         let claim = match composition {
             true => Claim::SymmetricBase(self.claim().order()),
             false => self.claim().clone(),

@@ -140,7 +140,11 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn stability(&self) -> Stability {
-        let decided = || Stability::of(&self.exact);
+        // That of a processed method is the stability of its kernel, to which it is conjugate.
+        let decided = || match self.processed() {
+            Some(processed) => processed.kernel.stability(),
+            None => Stability::of(&self.exact),
+        };
         self.proofs.stability.get_or_init(decided).clone()
     }
 
@@ -159,7 +163,10 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn first_stable_interval(&self) -> Option<StabilityInterval> {
-        let decided = || Stability::first_interval(&self.exact);
+        let decided = || match self.processed() {
+            Some(processed) => processed.kernel.first_stable_interval(),
+            None => Stability::first_interval(&self.exact),
+        };
         self.proofs.first_stable.get_or_init(decided).clone()
     }
 
@@ -175,6 +182,9 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn stable_steps(&self) -> StableSteps {
+        if let Some(processed) = self.processed() {
+            return processed.kernel.stable_steps();
+        }
         if self.stages() <= MAX_STAGES {
             let stability = self.stability();
             return match stability.evidence {
@@ -310,7 +320,7 @@ impl Tableau {
     /// explicit for them; `None` for a method with coupled stages.
     ///
     /// Evaluations of the previous step that are reused (first same as last) do not count: only the very first step
-    /// makes them.
+    /// makes them. Those of a processed method are the evaluations of its kernel.
     ///
     /// ```
     /// use symplectic_compiler::schedule::Evaluations;
@@ -322,6 +332,9 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn evaluations(&self) -> Option<Evaluations> {
-        Evaluations::of(&self.exact)
+        match self.processed() {
+            Some(processed) => processed.kernel.evaluations(),
+            None => Evaluations::of(&self.exact),
+        }
     }
 }

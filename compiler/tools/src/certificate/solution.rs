@@ -87,7 +87,7 @@ impl Solution<'_> {
             if known.is_none() {
                 arguments.push(x);
             }
-            steps.push(Step { kind, argument });
+            steps.push(Step::new(kind, argument));
         }
         let symmetric = steps.iter().eq(steps.iter().rev());
         let conditions = Conditions::new(self.claim, symmetric).ok()?;
@@ -96,7 +96,7 @@ impl Solution<'_> {
         let names: Vec<String> = words.iter().map(name).collect();
         let values: Vec<Interval> = arguments.iter().map(|x| self.value(x)).collect();
         let all: Vec<usize> = (0..arguments.len()).collect();
-        let rows = System { steps, conditions }.derivatives(&values, &all);
+        let rows = System::new(steps, conditions).derivatives(&values, &all);
         let zero = Interval::enclosing(&BigRational::default(), BITS);
         // The arguments are functions of the unknowns.
         let by = |row: &Vec<Interval>, unknown: &usize| {
