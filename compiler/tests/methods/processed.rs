@@ -1,6 +1,6 @@
 //! Processed methods: a kernel between a processor and its inverse.
 
-use symplectic_compiler::order::Pendulum;
+use symplectic_compiler::order::{HamiltonianClass, Pendulum};
 use symplectic_compiler::{Definition, Evidence, Limits, Tableau};
 
 fn read(text: &str) -> Result<Tableau, symplectic_compiler::Error> {
@@ -150,4 +150,44 @@ fn a_processed_composition_of_a_coupled_method_keeps_its_order() {
         .observed_order(Pendulum::Coupled, 4)
         .expect("an order");
     assert!((seen - 4.0).abs() < 0.05, "{seen}");
+}
+
+#[test]
+fn the_kernel_of_morales_has_conjugate_order_8_and_a_changed_digit_takes_it_away() {
+    let tableau = derive(&format!("{MORALES}, claim: separable(7)"));
+    let kernel = &tableau.processed().expect("processed").kernel;
+    assert_eq!(kernel.orders().separable.order, 4);
+    for class in [HamiltonianClass::Separable, HamiltonianClass::Nystrom] {
+        let found = tableau.conjugate_order(class).expect("a splitting");
+        assert_eq!(
+            (found.order, found.evidence),
+            (8, Evidence::Certified),
+            "{class:?}"
+        );
+        let violated = found.refuted_by.expect("conditions of degree 9");
+        assert_eq!(violated.degree, 9);
+    }
+    assert!(tableau.conjugate_order(HamiltonianClass::General).is_none());
+    // As exact numbers.
+    let changed = MORALES.replace("0.51788649682987924", "0.51788649682887924");
+    let (weights, _) = changed.split_once(", symmetric").expect("a half");
+    let middle = weights.rfind("-0.5595").expect("the middle");
+    let others: Vec<&str> = weights[weights.find('[').expect("a list") + 1..middle]
+        .split(',')
+        .collect();
+    let others: Vec<&str> = others
+        .iter()
+        .map(|x| x.trim())
+        .filter(|x| !x.is_empty())
+        .collect();
+    let list = others.join(", ");
+    let text = format!(
+        "base: velocity-verlet, weights: [{list}, 1 - 2*({})], symmetric: true",
+        others.join(" + ")
+    );
+    let found = derive(&text)
+        .conjugate_order(HamiltonianClass::Separable)
+        .expect("a splitting");
+    assert_eq!(found.order, 2);
+    println!("{found:?}");
 }
