@@ -149,6 +149,11 @@ impl Based {
         }
     }
 
+    /// The base method, if it is the method itself.
+    pub fn alone(&self) -> Option<&Problem> {
+        self.weights.is_none().then_some(&self.base.method)
+    }
+
     pub fn stages(&self) -> usize {
         let steps = self
             .weights

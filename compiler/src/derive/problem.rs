@@ -395,15 +395,17 @@ impl Problem {
 
     /// The kernel and the processor of a processed method.
     pub fn processed(&self) -> Option<[Problem; 2]> {
-        let Construction::Processed(processed) = self.construction() else {
-            return None;
+        let parts = match self.construction() {
+            Construction::Processed(processed) => processed.parts_of_run(),
+            Construction::Based(based) => based.alone()?.processed()?,
+            _ => return None,
         };
         // The adjoint has another processor, P(−h).
-        let exchange = |problem: &Problem| Problem {
+        let exchange = |problem: Problem| Problem {
             exchange: problem.exchange ^ self.exchange,
-            ..problem.clone()
+            ..problem
         };
-        (!self.adjoint).then(|| [&processed.kernel, &processed.processor].map(exchange))
+        (!self.adjoint).then(|| parts.map(exchange))
     }
 
     /// The inverse of the step, as a step of the same size: the step `−h` of the adjoint.

@@ -22,8 +22,8 @@ use crate::symbolic::Constant;
 
 /// A kernel and a processor.
 pub struct Processed {
-    pub kernel: Problem,
-    pub processor: Problem,
+    kernel: Problem,
+    processor: Problem,
     /// `P⁻¹`, K and P: the first one first.
     steps: Vec<Step>,
     /// The processor in canonical form.
@@ -155,6 +155,11 @@ impl Processed {
             wrong_digits,
             ..Processed::new(kernel, processor, processor_text)
         })
+    }
+
+    /// The kernel and the processor.
+    pub fn parts_of_run(&self) -> [Problem; 2] {
+        [&self.kernel, &self.processor].map(Problem::clone)
     }
 
     /// The steps of the whole method.

@@ -12,6 +12,8 @@
 //! Coordinates of `L_n` are the coefficients of the conditions of order `n`: those of Lyndon words, or forms that vanish on the relations of a
 //! quadratic kinetic energy (see [`crate::certify::Conditions`]).
 
+use std::fmt;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero as _};
@@ -20,7 +22,7 @@ use super::perturbed::{OfLetters, with_letters};
 use crate::algebra::{Balls, Field, Zero};
 use crate::arithmetic::rounding::Decimal;
 use crate::certify::{Alphabet, Claim, Conditions, MAX_ORDER};
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, evidence_text};
 use crate::exact::Exact;
 use crate::hamiltonian_class::HamiltonianClass;
 
@@ -44,6 +46,38 @@ pub struct ViolatedKernel {
     pub conditions: usize,
     /// The value that should be zero.
     pub residual: Decimal,
+}
+
+impl fmt::Display for ConjugateOrder {
+    /// `8, certified; not 9: 8 conditions of this degree on the kernel, one of which is violated by 1.2e-6`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at_least = if self.refuted_by.is_none() {
+            "≥ "
+        } else {
+            ""
+        };
+        let evidence = evidence_text(self.evidence);
+        write!(f, "{at_least}{}, {evidence}", self.order)?;
+        match &self.refuted_by {
+            Some(ViolatedKernel {
+                degree,
+                conditions: 1,
+                residual,
+            }) => write!(
+                f,
+                "; not {degree}: the condition of this degree on the kernel is violated by {residual}"
+            ),
+            Some(ViolatedKernel {
+                degree,
+                conditions,
+                residual,
+            }) => write!(
+                f,
+                "; not {degree}: of {conditions} conditions of this degree on the kernel one is violated by {residual}"
+            ),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Bits of the enclosures that decide what is not zero.

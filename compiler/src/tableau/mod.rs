@@ -185,7 +185,10 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn processed(&self) -> Option<&Processed> {
-        self.provenance.definition.get(Key::Processor)?;
+        let has = |key| self.provenance.definition.get(key).is_some();
+        if !has(Key::Processor) && (!has(Key::Base) || has(Key::Weights)) {
+            return None;
+        }
         let derived = || {
             let [kernel, processor] = self.problem().ok()?.processed()?;
             let inverse = processor.inverse().ok()?;
