@@ -16,7 +16,7 @@ pub(super) const ROWS: &[Row] = &[
                      -0.00024139614958652134370419495289618, 0.73873460354125365739379753874964, \
                      -0.20285971152536085519251666906017, 0.44989521689676869571827637424046, \
                      0.29538398007876871184026747505657, -0.3364996155865700091428329802017, \
-                     -0.017142276311817526137611624011), claim: separable(7)",
+                     -0.01714227631181752613761162401), claim: separable(7)",
         stages: &[58],
         source: "Morales et al., Selection and improvement of product formulae for \
                  best performance of quantum simulation, Quantum Inf. Comput. 25 (2025), Table 2 and Appendix B; the last weights \

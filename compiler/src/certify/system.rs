@@ -89,6 +89,18 @@ pub struct Sum {
 }
 
 impl Sum {
+    /// If an argument is the last one that is not known: the others with their factors, and the constant, of which it is the sum.
+    pub fn last_of(
+        &self,
+        argument: usize,
+        is_known: impl Fn(usize) -> bool,
+    ) -> Option<(Vec<(usize, BigRational)>, BigRational)> {
+        let (&last, &count) = self.terms.iter().rfind(|(index, _)| !is_known(**index))?;
+        let others = self.terms.iter().filter(|(index, _)| **index != last);
+        let others = others.map(|(index, other)| (*index, ratio(-other, count)));
+        (last == argument).then(|| (others.collect(), &self.wanted / ratio(count, 1)))
+    }
+
     /// The argument that is determined by the others, if all of these are known.
     pub fn missing(&self, known: &[Option<BigRational>]) -> Option<(usize, BigRational)> {
         let mut unknown = self
