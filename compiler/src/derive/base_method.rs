@@ -155,6 +155,9 @@ impl Based {
     }
 
     pub fn stages(&self) -> usize {
+        if let Some(method) = self.alone() {
+            return method.stages();
+        }
         let steps = self
             .weights
             .as_ref()

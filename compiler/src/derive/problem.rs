@@ -322,7 +322,7 @@ impl Problem {
         }
     }
 
-    /// The number of stages of the method, or a bound on it.
+    /// The number of stages of the method, or a bound on it; of a processed method the larger of the numbers of its kernel and its processor.
     pub fn stages(&self) -> usize {
         match self.construction() {
             Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
@@ -332,7 +332,12 @@ impl Problem {
             Construction::Splitting(splitting) => splitting.sequence().stages(),
             Construction::Certified(certified) => certified.stages(),
             Construction::Based(based) => based.stages(),
-            Construction::Composition { .. } | Construction::Processed(_) => {
+            // Limits apply to what is written.
+            Construction::Processed(processed) => {
+                let [kernel, processor] = processed.parts_of_run();
+                kernel.stages().max(processor.stages())
+            }
+            Construction::Composition { .. } => {
                 let steps = self.construction().composed().unwrap_or_default();
                 match self.construction().sequence() {
                     Some(sequence) => sequence.stages(),

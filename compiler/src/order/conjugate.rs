@@ -21,7 +21,7 @@ use num_traits::{One, Zero as _};
 use super::perturbed::{OfLetters, with_letters};
 use crate::algebra::{Balls, Field, Zero};
 use crate::arithmetic::rounding::Decimal;
-use crate::certify::{Alphabet, Claim, Conditions, MAX_ORDER};
+use crate::certify::{Alphabet, Claim, Conditions, DRIFT, MAX_ORDER, Word};
 use crate::evidence::{Evidence, evidence_text};
 use crate::exact::Exact;
 use crate::hamiltonian_class::HamiltonianClass;
@@ -35,6 +35,20 @@ pub struct ConjugateOrder {
     pub evidence: Evidence,
     /// A violated condition on the kernel for the next order. If there is none, the order is a lower bound.
     pub refuted_by: Option<ViolatedKernel>,
+    /// The processor `P = exp(π_{p−1}) ⋯ exp(π_2) exp(π_1)` up to the degree `p − 1`, as an operator: the terms of the `π` that are not zero.
+    /// Another processor with the same order is this one, multiplied from the left by `exp(cA + cB)`.
+    pub processor: Vec<LieTerm>,
+}
+
+/// A multiple of a bracket of `A`, the Lie derivative of the drift, and `B`, that of the kick.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LieTerm {
+    /// The bracket: `[A,[A,B]]`.
+    pub bracket: String,
+    /// Its degree in the step size.
+    pub degree: usize,
+    /// Its factor.
+    pub factor: Decimal,
 }
 
 /// A condition of a degree on the kernel that no processor can satisfy.
@@ -146,7 +160,7 @@ fn order_of<F: Field>(
         Some(bits) => Evidence::Verified { bits },
         None => Evidence::Proved,
     };
-    let mut below = 0;
+    let (mut below, mut processor) = (0, Vec::new());
     for degree in 1..=limit {
         let forms = conditions.conditions().iter();
         let forms: Vec<Vec<(usize, BigRational)>> = forms
@@ -192,12 +206,22 @@ fn order_of<F: Field>(
                     conditions: rest.len(),
                     residual: field.number(violated).decimal(12),
                 }),
+                processor,
             });
         }
         let pairs = generators.iter().zip(&solution);
         let terms: Vec<(&Vec<BigInt>, &F::Element)> = pairs
             .filter_map(|(generator, value)| Some((generator, value.as_ref()?)))
             .collect();
+        let words = lyndon_words(degree.saturating_sub(1));
+        for (word, value) in words.iter().zip(&solution) {
+            let value = value.as_ref().filter(|x| field.zero(x) == Zero::No);
+            processor.extend(value.map(|value| LieTerm {
+                bracket: bracket_text(word),
+                degree: degree - 1,
+                factor: field.number(value).decimal(20),
+            }));
+        }
         if !terms.is_empty() && degree < limit {
             kernel.conjugate(field, degree - 1, &terms);
         }
@@ -206,6 +230,7 @@ fn order_of<F: Field>(
         order: limit,
         evidence: evidence(),
         refuted_by: None,
+        processor,
     })
 }
 
@@ -255,11 +280,35 @@ fn index_of(word: &[u8]) -> usize {
 
 /// A basis of the free Lie algebra of two letters in a degree: the bracketed Lyndon words, by the coefficients of all words.
 fn lie_basis(degree: usize) -> Vec<Vec<BigInt>> {
-    let words = match degree {
+    let words = lyndon_words(degree);
+    words.iter().map(|word| bracketed(word)).collect()
+}
+
+fn lyndon_words(degree: usize) -> Vec<Word> {
+    match degree {
         0 => Vec::new(),
         _ => Alphabet::splitting().lyndon(degree),
-    };
-    words.iter().map(|word| bracketed(word)).collect()
+    }
+}
+
+/// Where the standard bracketing cuts a Lyndon word: before its longest proper Lyndon suffix.
+fn cut(word: &[u8]) -> usize {
+    let lyndon = |word: &[u8]| (1..word.len()).all(|start| word < &word[start..]);
+    (1..word.len())
+        .find(|&cut| lyndon(&word[cut..]))
+        .unwrap_or(1)
+}
+
+/// `[A,[A,B]]` for the word `AAB`.
+fn bracket_text(word: &[u8]) -> String {
+    match word {
+        [DRIFT] => "A".to_owned(),
+        [_] => "B".to_owned(),
+        _ => {
+            let (left, right) = word.split_at(cut(word));
+            format!("[{},{}]", bracket_text(left), bracket_text(right))
+        }
+    }
 }
 
 /// The standard bracketing of a Lyndon word: its longest proper Lyndon suffix is the right operand.
@@ -269,11 +318,8 @@ fn bracketed(word: &[u8]) -> Vec<BigInt> {
         own[usize::from(*letter)] = BigInt::one();
         return own;
     }
-    let lyndon = |word: &[u8]| (1..word.len()).all(|start| word < &word[start..]);
-    let cut = (1..word.len())
-        .find(|&cut| lyndon(&word[cut..]))
-        .unwrap_or(1);
-    bracket(&bracketed(&word[..cut]), &bracketed(&word[cut..]))
+    let (left, right) = word.split_at(cut(word));
+    bracket(&bracketed(left), &bracketed(right))
 }
 
 /// `xy − yx`
@@ -415,7 +461,7 @@ mod tests {
     use super::*;
     use crate::algebra::Rationals;
     use crate::arithmetic::rational::ratio;
-    use crate::certify::{DRIFT, KICK};
+    use crate::certify::KICK;
 
     fn order(claim: &Claim, letters: &[(u8, BigRational)]) -> ConjugateOrder {
         order_of(&Rationals, letters.to_vec(), claim).expect("decided")
@@ -447,7 +493,15 @@ mod tests {
                 let (_, rest) = eliminated(&Rationals, rows.collect(), basis.len());
                 assert_eq!(rest.len(), count, "{claim} {degree}");
             }
-            assert_eq!(order(&claim, &euler).order, 2);
+            // exp(−A/2) exp(A) exp(B) exp(A/2) is symmetric.
+            let found = order(&claim, &euler);
+            assert_eq!(found.order, 2);
+            let terms: Vec<String> = found
+                .processor
+                .iter()
+                .map(|term| format!("{} {}", term.factor, term.bracket))
+                .collect();
+            assert_eq!(terms, ["-0.50000000000000000000 A"]);
         }
     }
 

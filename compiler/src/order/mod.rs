@@ -47,7 +47,7 @@ mod weights;
 
 pub use class::HamiltonianClass;
 pub(crate) use conjugate::conjugate_order;
-pub use conjugate::{ConjugateOrder, ViolatedKernel};
+pub use conjugate::{ConjugateOrder, LieTerm, ViolatedKernel};
 pub use enumeration::{TreeRule, Trees};
 pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;

@@ -150,7 +150,10 @@ impl Numbers {
         kind.extend(processor.map(|x| {
             let weights = ("weights", list(&x.weights));
             let both_ways = Literal(x.back_and_forth.to_string());
-            ("processor", Table(vec![weights, ("back_and_forth", both_ways)]))
+            (
+                "processor",
+                Table(vec![weights, ("back_and_forth", both_ways)]),
+            )
         }));
         Some(Numbers {
             kind: Table(kind),
