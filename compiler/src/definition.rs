@@ -85,6 +85,10 @@ keys! {
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First = "first", Some("FLOW"),
         "What comes first: kick or drift [default: kick]";
+    /// The processor P of a processed method `P K P⁻¹`: steps of the base whose fractions sum to 0, `1/3, -1/2, 1/6`, or
+    /// `back_and_forth(1/3, -1/2, 1/6)`, or kicks, and drifts that sum to 0, `[kick: [1/4, -1/4], drift: [1/5, -1/5]]`.
+    Processor = "processor", Some("STEPS"),
+        "The processor P of a processed method P K P^-1: with `--base`, fractions of steps of it that sum to 0, the first one first, or `back_and_forth(...)`; with `--kick` and `--drift`, a splitting whose drifts sum to 0: \"[kick: [1/4, -1/4], drift: [1/5, -1/5]]\"";
     /// The claimed order of printed kicks and drifts, `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or of printed weights of
     /// a composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the digits: see
     /// [`certify`](crate::certify).
@@ -130,6 +134,7 @@ impl Key {
 /// | `kick`, `drift`, `claim`, perhaps `first`, `symmetric` | the exact splitting behind printed digits, certified |
 /// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
 /// | `base`, `weights`, `claim`, perhaps `symmetric` | the exact composition behind printed weights, certified |
+/// | either of these with `processor` | `P ∘ K ∘ P⁻¹` with that method as the kernel K |
 /// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///
 /// Each may have `exchange: true` and `adjoint: true`. Every value is text in the grammar of

@@ -82,4 +82,4 @@ pub use symplectic_exact as arithmetic;
 pub use symplectic_exact::error::{Error, ErrorKind, Place};
 pub use symplectic_exact::suggestion::{did_you_mean, suggestion, with_suggestion};
 use symplectic_exact::{error, suggestion};
-pub use tableau::{Provenance, Tableau, derive, derive_from, derive_within};
+pub use tableau::{Processed, Provenance, Tableau, derive, derive_from, derive_within};

@@ -7,8 +7,9 @@ from functools import lru_cache
 
 from check_certificate import Number, Stages, check_members, demand, rationals, read_tree, residuals, rounded_from, whole
 
+from . import processed
 from .rootings import rootings, unrooted
-from .splittings import base_conditions, base_residual, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
+from .splittings import base_conditions, base_residual, coefficient, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
 
 MAX_ORDER = {"separable": 10, "nystrom": 8, "composition": 10, "perturbed": 24}
 MAX_UNKNOWNS = 40
@@ -40,6 +41,24 @@ class Interval(Number):
 
     def is_inside(self, low, high):
         return low * UNIT <= self.low and self.high <= high * UNIT
+
+
+class Affine(Interval):
+    """An interval around an affine function of the unknowns, so that sums that do not depend on them are exact."""
+
+    def __init__(self, x, around):
+        self.low, self.high, self.x = around.low, around.high, x
+
+    def __add__(self, other):
+        found = super().__add__(other)
+        if isinstance(other, Affine):
+            x = tuple(c + d for c, d in zip(self.x, other.x))
+            return Affine(x, found) if any(x[1:]) else x[0]
+        return found if isinstance(other, Interval) else Affine((self.x[0] + other, *self.x[1:]), found)
+
+    def __mul__(self, other):
+        found = super().__mul__(other)
+        return found if isinstance(other, Interval) else Affine(tuple(c * other for c in self.x), found)
 
 
 def between(low, high):
@@ -81,7 +100,8 @@ class Solution:
     def __init__(self, numbers, layout, weights):
         self.kind, self.orders = numbers["class"], [whole(x) for x in numbers["orders"]]
         needed = ("kind", "class", "orders", "unknowns", "conditions", "box", "inverse")
-        check_members(numbers, (*needed, *(("weights",) if self.kind == "composition" else ())))
+        weighted = self.kind == "composition"
+        check_members(numbers, (*needed, *(("weights",) if weighted else ())), ("processor",) if weighted else ())
         decimals = numbers["unknowns"]
         demand(self.kind in MAX_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
         demand(0 < min(self.orders) and max(self.orders) <= MAX_ORDER[self.kind], "conditions of an order that is bounded")
@@ -95,10 +115,19 @@ class Solution:
         if self.kind == "composition":
             self.factors = [(None, self.vector(x, decimals)) for x in numbers["weights"]]
             demand(all_flows == verlet([x for _, x in self.factors], all_flows[0][0]), "a composition of Stoermer-Verlet")
-        self.symmetric = is_palindrome(self.factors)
+        self.symmetric, self.steps, self.vanish = is_palindrome(self.factors), [], {}
+        self.apart = 2 if self.symmetric else 1
+        if "processor" in numbers:
+            self.steps, both_ways = processed.written(numbers["processor"], lambda x: self.vector(x, decimals))
+            between = processed.kernel(self.factors, self.steps, both_ways)
+            self.apart, words = processed.even_words(between, self.orders[0], both_ways)
+            self.vanish = {f"processor {name_of(word)}": word for word in words}
         self.names = numbers["conditions"]
         self.all = self.named(self.names)
-        _, self.weights = self.at(self.solve(decimals, places(numbers["box"], 38), places(numbers["inverse"], 10)))
+        _, weights = self.at(self.solve(decimals, places(numbers["box"], 38), places(numbers["inverse"], 10)))
+        # Equal functions are one number.
+        number = lru_cache(maxsize=None)(lambda x, value: Affine(x, value) if isinstance(value, Interval) else value)
+        self.weights = {colour: [*map(number, self.affine[colour], list_)] for colour, list_ in weights.items()}
 
     def vector(self, x, decimals):
         x = tuple(rationals(x))
@@ -106,18 +135,18 @@ class Solution:
         return x
 
     def at(self, unknowns):
-        """The factors and the weights."""
+        """The factors, followed by the written steps of a processor, and the weights."""
 
         @lru_cache(maxsize=None)
         def number(x):
             return x[0] + sum((y * c for c, y in zip(x[1:], unknowns) if c), Fraction(0))
 
-        factors = [(letter, number(x)) for letter, x in self.factors]
+        factors = [(letter, number(x)) for letter, x in (*self.factors, *self.steps)]
         return factors, {colour: [number(x) for x in list_] for colour, list_ in self.affine.items()}
 
     def named(self, names):
         """All conditions by name, sufficient for the order: of a symmetric method in odd degrees (HLW II.3)."""
-        step = 2 if self.symmetric else 1
+        step = self.apart
         if self.kind == "composition":
             words = base_conditions(self.orders[0], step)
         elif self.kind != "nystrom":
@@ -128,7 +157,7 @@ class Solution:
             given = {same(tree): (name, tree) for name, tree in zip(names, map(read_tree, names))}
             trees = (tree for n in range(1, self.orders[0] + 1, step) for tree in unrooted(n, "nystrom"))
             return dict(given.get(same(tree), (tree, tree)) for tree in trees)
-        return {"".join({"q": "A", "p": "B"}.get(letter, f"E{letter}") for letter in word): word for word in words}
+        return {name_of(word): word for word in words}
 
     def conditions(self, unknowns):
         """What has to vanish, as many as unknowns."""
@@ -136,9 +165,11 @@ class Solution:
         if self.kind == "nystrom":
             residual = residuals(Stages(self.layout, weights, {}))
         else:
-            factors, residual_of = product_of(factors), base_residual if self.kind == "composition" else splitting_residual
+            count, factors = len(self.factors), product_of(factors)
+            factors, steps, residual_of = factors[:count], factors[count:], base_residual if self.kind == "composition" else splitting_residual
             residual = lambda word: residual_of(word, factors) * math.factorial(len(word))
         found = {name: residual(x) for name, x in self.all.items()}
+        found |= {name: coefficient(word, steps) * math.factorial(len(word)) for name, word in self.vanish.items()}
         known = [name for name, x in found.items() if isinstance(x, Fraction)]
         demand(not any(map(found.pop, known)), "conditions without unknowns")
         demand(found.keys() == {*self.names} and len(found) == len(self.names), "the conditions of the class, each once")
@@ -178,6 +209,10 @@ class Solution:
         separable = min(order, 3) if self.kind == "nystrom" else order
         powers = self.orders if self.kind == "perturbed" else [order, order, separable]
         return {"general": 1, "separable": even(separable), "nystrom": even(order), "perturbed": [even(s) for s in powers]}
+
+
+def name_of(word):
+    return "".join({"q": "A", "p": "B"}.get(letter, f"E{letter}") for letter in word)
 
 
 def verlet(weights, outer):

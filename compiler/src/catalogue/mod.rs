@@ -3,6 +3,7 @@
 mod compositions;
 mod decimals;
 mod perturbed;
+mod processed;
 mod splittings;
 
 use crate::error::{Error, ErrorKind};
@@ -244,6 +245,7 @@ pub fn entries() -> impl Iterator<Item = Entry> {
         decimals::ROWS,
         compositions::ROWS,
         perturbed::ROWS,
+        processed::ROWS,
     ]
     .into_iter()
     .flatten()

@@ -8,6 +8,7 @@ use num_traits::Zero;
 use super::certificate::{Certificate, Solution};
 use super::conditions::Claim;
 use super::structure::Coefficient;
+use super::system::{Step, Sum, System};
 use crate::arithmetic::interval::Interval;
 
 /// `c + Σ_i f_i x_i`
@@ -56,6 +57,21 @@ pub struct Solved {
     pub claim: Claim,
     /// The fractions of a composition, in the order of its steps.
     pub weights: Option<Vec<Affine>>,
+    /// The processor of a processed composition.
+    pub processor: Option<SolvedProcessor>,
+}
+
+/// The processor of a processed composition whose conditions were solved.
+#[derive(Debug)]
+pub struct SolvedProcessor {
+    /// The fractions that are written.
+    pub weights: Vec<Affine>,
+    /// Whether they are those of `Q` in `P(h) = Q(h) Q(−h)`.
+    pub back_and_forth: bool,
+    /// All conditions, in arguments.
+    pub system: System,
+    /// The arguments.
+    pub arguments: Vec<Affine>,
 }
 
 impl Certificate {
@@ -69,15 +85,32 @@ impl Certificate {
         ))
     }
 
-    /// An unknown, replaced by its value if that is known to be rational.
+    /// An unknown, replaced by its value if that is known to be rational. The last weight of a processor is minus the others.
     fn argument(&self, index: usize) -> Affine {
-        match self.solution().known(index) {
-            Some(value) => Affine::rational(value),
-            None => Affine {
-                constant: BigRational::zero(),
-                factors: BTreeMap::from([(index, num_traits::One::one())]),
-            },
+        if let Some(value) = self.solution().known(index) {
+            return Affine::rational(value);
         }
+        if let Some(sum) = self.sum_of_processor()
+            && let Some((others, rest)) = sum.last_of(index, |x| self.solution().known(x).is_some())
+        {
+            let start = Affine::rational(rest);
+            return others.into_iter().fold(start, |sum, (other, factor)| {
+                sum.plus(&self.argument(other), &factor)
+            });
+        }
+        Affine {
+            constant: BigRational::zero(),
+            factors: BTreeMap::from([(index, num_traits::One::one())]),
+        }
+    }
+
+    /// The condition that the weights of a processor sum to 0.
+    fn sum_of_processor(&self) -> Option<Sum> {
+        let Solution::Enclosed(enclosed) = self.solution() else {
+            return None;
+        };
+        let written = enclosed.system().beside.as_ref()?;
+        written.linear_conditions().into_iter().next()
     }
 
     /// The conditions that were solved; `None` for a method whose coefficients are all rational.
@@ -87,12 +120,34 @@ impl Certificate {
         };
         let composition = self.structure().composition();
         let steps = enclosed.steps().iter();
-        let weights = composition.then(|| steps.map(|step| self.argument(step.argument)).collect());
+        let weight = |step: &Step| {
+            let argument = self.argument(step.argument);
+            match step.negative {
+                true => argument.scaled(&BigRational::from_integer((-1).into())),
+                false => argument,
+            }
+        };
+        let weights: Option<Vec<Affine>> = composition.then(|| steps.map(weight).collect());
+        let system = enclosed.system();
+        let processor = system.beside.as_ref().map(|written| {
+            let is_kernel = |name: &Coefficient| matches!(name, Coefficient::Weight(_));
+            let kernel = self.coefficients().filter(is_kernel).count();
+            SolvedProcessor {
+                weights: written.steps.iter().map(weight).collect(),
+                back_and_forth: system.steps.len() - kernel > 2 * written.steps.len(),
+                system: system.clone(),
+                arguments: (0..self.unknowns()).map(|x| self.argument(x)).collect(),
+            }
+        });
         let claim = match composition {
             true => Claim::SymmetricBase(self.claim().order()),
             false => self.claim().clone(),
         };
-        Some(Solved { claim, weights })
+        Some(Solved {
+            claim,
+            weights,
+            processor,
+        })
     }
 
     /// Enclosures of all unknowns.

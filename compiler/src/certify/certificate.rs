@@ -109,7 +109,12 @@ impl Enclosed {
 
     /// The steps whose product satisfies the conditions.
     pub(super) fn steps(&self) -> &[Step] {
-        &self.proof.square.system.steps
+        &self.system().steps
+    }
+
+    /// The conditions.
+    pub(super) fn system(&self) -> &System {
+        &self.proof.square.system
     }
 }
 

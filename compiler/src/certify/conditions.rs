@@ -263,6 +263,15 @@ impl Conditions {
         all
     }
 
+    /// The conditions of the odd degrees up to one for a product that is even in the step size: the coefficients of the words vanish.
+    pub(super) fn even(claim: &Claim, degree: usize) -> Self {
+        let mut found = Conditions::of_degrees(claim, (1..=degree).step_by(2));
+        for condition in &mut found.conditions {
+            condition.wanted = BigRational::zero();
+        }
+        found
+    }
+
     /// The coefficient of a word in `exp(A + B)` or `exp(E₁)`: `1/|w|!` if all letters are of degree 1.
     fn exact_flow(&self, word: &[u8]) -> BigRational {
         if self.alphabet.degree(word) > word.len() {

@@ -43,6 +43,7 @@ mod minimax;
 mod newton;
 mod nystrom;
 mod printed;
+mod processed;
 mod proof;
 mod search;
 mod selection;
@@ -58,7 +59,8 @@ pub use error::CertifyError;
 pub(crate) use lyndon::split_lyndon;
 pub use lyndon::{Alphabet, Word};
 pub use printed::{MAX_DIGITS, Printed};
-pub use search::{certify, certify_composition};
+pub use processed::Processor;
+pub use search::{certify, certify_composition, certify_processed};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
 

@@ -221,15 +221,12 @@ mod tests {
 
     /// The triple jump: `2x + y = 1`, `2x³ + y³ = 0`, with `x = 1/(2 − ∛2)`.
     fn triple_jump() -> Square {
-        let step = |argument| Step {
-            kind: Kind::Base,
-            argument,
-        };
+        let step = |argument| Step::new(Kind::Base, argument);
         Square {
-            system: System {
-                steps: vec![step(0), step(1), step(0)],
-                conditions: Conditions::new(&Claim::SymmetricBase(4), true).expect("a claim"),
-            },
+            system: System::new(
+                vec![step(0), step(1), step(0)],
+                Conditions::new(&Claim::SymmetricBase(4), true).expect("a claim"),
+            ),
             fixed: vec![None, None],
             free: vec![0, 1],
         }

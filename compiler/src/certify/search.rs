@@ -10,11 +10,14 @@ use super::error::CertifyError;
 use super::lyndon::{DRIFT, KICK};
 use super::newton::Square;
 use super::printed::Printed;
+use super::processed::Processor;
 use super::proof::Proof;
 use super::selection::free_unknowns;
 use super::settle::{Settled, settle};
 use super::splitting::{Splitting, check, tolerance, wrong_sum};
-use super::structure::{Coefficient, Reading, Target, composition_readings, readings};
+use super::structure::{
+    Coefficient, Reading, Target, composition_readings, processed_readings, readings,
+};
 use super::system::{Kind, Step, System};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::simplest_between;
@@ -71,6 +74,29 @@ pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certific
     let tolerance = tolerance(weights.iter());
     let bits = digit_bits(weights.iter());
     let readings = composition_readings(weights);
+    let found = first_certified(&readings, &claim, &tolerance, bits);
+    check_sum("weights", weights, &tolerance, &found)?;
+    found
+}
+
+/// Proves that weights near the printed ones exist with which the processed composition `P K P⁻¹` of any symmetric basic method of order 2 has the
+/// claimed order. The kernel K has the weights, which sum to 1; those of the processor P sum to 0.
+///
+/// # Errors
+/// The same as for [`certify()`].
+pub fn certify_processed(
+    weights: &[Printed],
+    processor: &Processor<Printed>,
+    order: usize,
+) -> Result<Certificate, CertifyError> {
+    check(weights, Coefficient::Weight)?;
+    check(processor.weights(), Coefficient::Processor)?;
+    let claim = Claim::SymmetricBase(order);
+    claim.check()?;
+    let all = || weights.iter().chain(processor.weights());
+    let tolerance = tolerance(all());
+    let bits = digit_bits(all());
+    let readings = processed_readings(weights, processor);
     let found = first_certified(&readings, &claim, &tolerance, bits);
     check_sum("weights", weights, &tolerance, &found)?;
     found
@@ -196,6 +222,18 @@ fn solved(reading: &Reading, claim: &Claim) -> Claim {
     }
 }
 
+/// The conditions that are solved for a reading.
+fn system(reading: &Reading, solved: &Claim) -> Result<System, CertifyError> {
+    let steps = reading.steps.clone();
+    Ok(match &reading.processing {
+        Some(processing) => processing.system(steps, solved),
+        None => System::new(
+            steps,
+            Conditions::new(solved, reading.structure.symmetric())?,
+        ),
+    })
+}
+
 /// The certificate of a method that is found for a reading.
 fn certificate(
     reading: &Reading,
@@ -229,21 +267,17 @@ fn as_printed(reading: &Reading, claim: &Claim, digit_bits: u32) -> Option<Certi
     let values: Vec<BigRational> = reading.unknowns.iter().map(|x| x.start.clone()).collect();
     let solution = Solution::Exact(values.clone());
     let printed = |target: &Target| target.rational(&solution).as_ref() == Some(&target.printed);
-    let holds = |conditions: Conditions| {
-        let steps = reading.steps.clone();
-        let count = conditions.conditions().len();
-        let system = System { steps, conditions };
+    let holds = |system: System| {
+        let count = system.all().count();
         system.holds_exactly(&values).then_some(count)
     };
     let solved = solved(reading, claim);
     if !reading.targets.iter().all(printed) {
         return None;
     }
-    holds(Conditions::of_degrees(
-        &solved,
-        1..=FIRST.min(claim.order()),
-    ))?;
-    let count = holds(Conditions::new(&solved, reading.structure.symmetric()).ok()?)?;
+    let first = Conditions::of_degrees(&solved, 1..=FIRST.min(claim.order()));
+    holds(System::new(reading.steps.clone(), first))?;
+    let count = holds(system(reading, &solved).ok()?)?;
     let found = (Vec::new(), None, solution);
     let digits = (Digits::All, Vec::new());
     Some(certificate(
@@ -258,12 +292,8 @@ fn certified(
     digit_bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let structure = reading.structure;
-    let conditions = Conditions::new(&solved(reading, claim), structure.symmetric())?;
-    let system = System {
-        steps: reading.steps.clone(),
-        conditions,
-    };
-    let counts = (system.conditions.conditions().len(), reading.unknowns.len());
+    let system = system(reading, &solved(reading, claim))?;
+    let counts = (system.all().count(), reading.unknowns.len());
     let with = |found, digits, suspects| {
         let digits = (digits, suspects);
         certificate(reading, claim, counts.0, digit_bits, found, digits)
@@ -312,7 +342,7 @@ fn certified(
             .collect();
         let residuals = system.residuals(&at);
         let sizes = residuals.iter().map(|r| r.low().abs().max(r.high().abs()));
-        let conditions = system.conditions.conditions().iter().map(|c| c.degree);
+        let conditions = system.all().map(|c| c.degree);
         let largest = sizes.zip(conditions).max().unwrap_or_default();
         CertifyError::NotFound {
             claim: claim.clone(),
@@ -441,10 +471,8 @@ fn sharp(reading: &Reading, claim: &Claim, solution: &Solution) -> Option<bool> 
         Claim::SymmetricBase(_) => (reading.steps.clone(), unknowns),
         _ => expanded(&reading.targets, &unknowns, BITS),
     };
-    let system = System {
-        steps,
-        conditions: Conditions::of_degrees(&next, std::iter::once(degree)),
-    };
+    let conditions = Conditions::of_degrees(&next, std::iter::once(degree));
+    let system = System::new(steps, conditions);
     let residuals = system.residuals(&arguments);
     Some(residuals.iter().any(|r| !r.contains(&BigRational::zero())))
 }
@@ -461,15 +489,16 @@ pub(super) fn expanded(
             let value = target.enclosed(unknowns, bits);
             match target.name {
                 Coefficient::Drift(index) => (index, DRIFT, value),
-                Coefficient::Kick(index) | Coefficient::Weight(index) => (index, KICK, value),
+                Coefficient::Kick(index)
+                | Coefficient::Weight(index)
+                | Coefficient::Processor(index) => (index, KICK, value),
             }
         })
         .collect();
     // In each stage the kick comes first.
     sorted.sort_by_key(|(index, letter, _)| (*index, std::cmp::Reverse(*letter)));
-    let step = |(argument, (_, letter, _)): (usize, &(usize, u8, Interval))| Step {
-        kind: Kind::Letter(*letter),
-        argument,
+    let step = |(argument, (_, letter, _)): (usize, &(usize, u8, Interval))| {
+        Step::new(Kind::Letter(*letter), argument)
     };
     let steps = sorted.iter().enumerate().map(step).collect();
     (
@@ -500,10 +529,7 @@ mod tests {
             simple: None,
             exact: false,
         });
-        let step = |letter, argument| Step {
-            kind: Kind::Letter(letter),
-            argument,
-        };
+        let step = |letter, argument| Step::new(Kind::Letter(letter), argument);
         let target = |name, printed, argument| Target {
             name,
             printed,
@@ -512,6 +538,7 @@ mod tests {
         };
         let reading = Reading {
             structure: Structure::Splitting,
+            processing: None,
             unknowns: unknowns.collect(),
             steps: vec![step(KICK, 0), step(DRIFT, 1), step(KICK, 0)],
             targets: vec![

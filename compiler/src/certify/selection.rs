@@ -20,7 +20,7 @@ const RANK_THRESHOLD: f64 = 1e-12;
 /// The numerical rank, if it is smaller than the number of conditions.
 pub fn free_unknowns(system: &System, reading: &Reading) -> Result<Vec<usize>, usize> {
     let pivots = pivots(system, &reading.unknowns, RANK_THRESHOLD);
-    if pivots.len() < system.conditions.conditions().len() {
+    if pivots.len() < system.all().count() {
         return Err(pivots.len());
     }
     let mut free: Vec<usize> = pivots.into_iter().map(|(_, column)| column).collect();

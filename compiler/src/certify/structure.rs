@@ -7,6 +7,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::lyndon::{DRIFT, KICK};
 use super::printed::Printed;
+use super::processed::{Processing, Processor};
 use super::splitting::Splitting;
 use super::system::{Kind, Step};
 use crate::arithmetic::rational::ratio;
@@ -20,6 +21,8 @@ pub enum Coefficient {
     Drift(usize),
     /// The weight of a basic method in a composition.
     Weight(usize),
+    /// The weight of a basic method in the processor of a composition.
+    Processor(usize),
 }
 
 impl fmt::Display for Coefficient {
@@ -28,6 +31,7 @@ impl fmt::Display for Coefficient {
             Coefficient::Kick(index) => write!(f, "kick[{index}]"),
             Coefficient::Drift(index) => write!(f, "drift[{index}]"),
             Coefficient::Weight(index) => write!(f, "weight[{index}]"),
+            Coefficient::Processor(index) => write!(f, "processor[{index}]"),
         }
     }
 }
@@ -43,6 +47,8 @@ pub enum Structure {
     Composition,
     /// Compositions of a symmetric basic method with palindromic weights.
     SymmetricComposition,
+    /// Processed compositions of a symmetric basic method.
+    Processed,
 }
 
 impl Structure {
@@ -58,7 +64,7 @@ impl Structure {
     pub fn composition(self) -> bool {
         matches!(
             self,
-            Structure::Composition | Structure::SymmetricComposition
+            Structure::Composition | Structure::SymmetricComposition | Structure::Processed
         )
     }
 }
@@ -70,6 +76,7 @@ impl fmt::Display for Structure {
             Structure::SymmetricSplitting => "symmetric splitting",
             Structure::Composition => "composition",
             Structure::SymmetricComposition => "symmetric composition",
+            Structure::Processed => "processed composition",
         })
     }
 }
@@ -107,6 +114,8 @@ pub struct Reading {
     pub unknowns: Vec<Unknown>,
     pub steps: Vec<Step>,
     pub targets: Vec<Target>,
+    /// Of a processed composition.
+    pub processing: Option<Processing>,
 }
 
 /// One printed factor of the product.
@@ -120,6 +129,15 @@ struct Factor<'a> {
 impl Factor<'_> {
     fn value(&self) -> &BigRational {
         self.printed.value()
+    }
+
+    fn unknown(&self) -> Unknown {
+        Unknown {
+            name: self.name,
+            start: self.value().clone(),
+            simple: self.printed.simple(),
+            exact: self.printed.places().is_none(),
+        }
     }
 
     fn target(&self, terms: Vec<(usize, BigRational)>) -> Target {
@@ -175,6 +193,38 @@ pub fn composition_readings(weights: &[Printed]) -> Vec<Reading> {
     plain(&factors, COMPOSITIONS)
 }
 
+/// The ways to read a processed composition `P K P⁻¹`, where K has these weights.
+pub fn processed_readings(weights: &[Printed], processor: &Processor<Printed>) -> Vec<Reading> {
+    let mut readings = composition_readings(weights);
+    for reading in &mut readings {
+        let first = reading.unknowns.len();
+        for (index, printed) in processor.weights().iter().enumerate() {
+            let factor = Factor {
+                kind: Kind::Base,
+                name: Coefficient::Processor(index),
+                printed,
+            };
+            reading.unknowns.push(factor.unknown());
+            let terms = vec![(first + index, BigRational::one())];
+            reading.targets.push(factor.target(terms));
+        }
+        let count = processor.weights().len();
+        let written = (first..first + count).map(|x| Step::new(Kind::Base, x));
+        let written: Vec<Step> = written.collect();
+        let processor = processor.with(written.clone()).steps(Step::inverse);
+        let inverse = processor.iter().rev().map(|step| step.inverse());
+        let kernel = std::mem::take(&mut reading.steps);
+        reading.steps = inverse.chain(kernel).chain(processor.clone()).collect();
+        reading.processing = Some(Processing {
+            symmetric: reading.structure.symmetric(),
+            back_and_forth: count < processor.len(),
+            written,
+        });
+        reading.structure = Structure::Processed;
+    }
+    readings
+}
+
 const COMPOSITIONS: [Structure; 2] = [Structure::SymmetricComposition, Structure::Composition];
 
 /// Whether two numbers may be intended to be equal: they agree to three places.
@@ -224,21 +274,12 @@ fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
             None
         };
         arguments.push(known.unwrap_or_else(|| {
-            let unknown = Unknown {
-                name: factor.name,
-                start: factor.value().clone(),
-                simple: factor.printed.simple(),
-                exact: factor.printed.places().is_none(),
-            };
-            unknowns.push((factor.kind, unknown));
+            unknowns.push((factor.kind, factor.unknown()));
             unknowns.len() - 1
         }));
     }
     let pairs = || factors.iter().zip(&arguments);
-    let step = |(factor, &argument): (&Factor<'_>, &usize)| Step {
-        kind: factor.kind,
-        argument,
-    };
+    let step = |(factor, &argument): (&Factor<'_>, &usize)| Step::new(factor.kind, argument);
     let target = |(factor, &argument): (&Factor<'_>, &usize)| {
         factor.target(vec![(argument, BigRational::one())])
     };
@@ -247,6 +288,7 @@ fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
         steps: pairs().map(step).collect(),
         targets: pairs().map(target).collect(),
         unknowns: unknowns.into_iter().map(|(_, unknown)| unknown).collect(),
+        processing: None,
     }
 }
 

@@ -28,6 +28,36 @@ pub struct Step {
     pub kind: Kind,
     /// The index of its argument.
     pub argument: usize,
+    /// Whether it takes minus its argument: the inverse of the step of a letter, or of a symmetric basic method.
+    pub negative: bool,
+}
+
+impl Step {
+    /// A step with its argument.
+    pub fn new(kind: Kind, argument: usize) -> Self {
+        Step {
+            kind,
+            argument,
+            negative: false,
+        }
+    }
+
+    /// The inverse step.
+    pub fn inverse(self) -> Self {
+        Step {
+            negative: !self.negative,
+            ..self
+        }
+    }
+
+    /// Adds the product of two entries, the second of this degree for the argument, to a sum: with the sign of the step.
+    fn add(self, sum: &Interval, x: &Interval, y: &Interval, degree: usize) -> Interval {
+        let product = x.multiply(y);
+        match self.negative && degree % 2 == 1 {
+            true => sum.subtract(&product),
+            false => sum.add(&product),
+        }
+    }
 }
 
 /// The exponent of a step.
@@ -46,6 +76,8 @@ pub struct System {
     pub steps: Vec<Step>,
     /// The conditions on their product.
     pub conditions: Conditions,
+    /// Conditions on another product of the same arguments.
+    pub beside: Option<Box<System>>,
 }
 
 /// A linear condition, `Σ_j m_j x_j = w`: the kicks, the drifts or the weights sum to 1.
@@ -57,6 +89,18 @@ pub struct Sum {
 }
 
 impl Sum {
+    /// If an argument is the last one that is not known: the others with their factors, and the constant, of which it is the sum.
+    pub fn last_of(
+        &self,
+        argument: usize,
+        is_known: impl Fn(usize) -> bool,
+    ) -> Option<(Vec<(usize, BigRational)>, BigRational)> {
+        let (&last, &count) = self.terms.iter().rfind(|(index, _)| !is_known(**index))?;
+        let others = self.terms.iter().filter(|(index, _)| **index != last);
+        let others = others.map(|(index, other)| (*index, ratio(-other, count)));
+        (last == argument).then(|| (others.collect(), &self.wanted / ratio(count, 1)))
+    }
+
     /// The argument that is determined by the others, if all of these are known.
     pub fn missing(&self, known: &[Option<BigRational>]) -> Option<(usize, BigRational)> {
         let mut unknown = self
@@ -117,6 +161,21 @@ impl System {
         }
     }
 
+    /// The conditions on a product of steps.
+    pub fn new(steps: Vec<Step>, conditions: Conditions) -> Self {
+        System {
+            steps,
+            conditions,
+            beside: None,
+        }
+    }
+
+    /// All conditions, those on the other product last.
+    pub fn all(&self) -> impl Iterator<Item = &Condition> {
+        let beside = self.beside.iter().flat_map(|x| x.conditions.conditions());
+        self.conditions.conditions().iter().chain(beside)
+    }
+
     /// The conditions of degree 1 with a single letter.
     pub fn linear_conditions(&self) -> Vec<Sum> {
         let conditions = self.conditions.conditions().iter();
@@ -126,19 +185,24 @@ impl System {
             }
             _ => None,
         });
+        let beside = self.beside.iter().flat_map(|x| x.linear_conditions());
         linear
             .map(|(word, wanted)| {
                 let mut terms = BTreeMap::new();
                 for step in &self.steps {
                     if self.block(*step, word) == Some(1) {
-                        *terms.entry(step.argument).or_insert(0) += 1;
+                        let sign = if step.negative { -1 } else { 1 };
+                        *terms.entry(step.argument).or_insert(0) += sign;
                     }
                 }
+                // Those of a step and of its inverse cancel.
+                terms.retain(|_, count| *count != 0);
                 Sum {
                     terms,
                     wanted: wanted.clone(),
                 }
             })
+            .chain(beside)
             .collect()
     }
 
@@ -176,7 +240,9 @@ impl System {
         };
         let words: Vec<Interval> = self.conditions.words().iter().map(value).collect();
         let conditions = self.conditions.conditions().iter();
-        conditions.map(|c| self.combined(c, &words, true)).collect()
+        let own = conditions.map(|c| self.combined(c, &words, true));
+        let beside = self.beside.iter().flat_map(|x| x.residuals(arguments));
+        own.chain(beside).collect()
     }
 
     /// Enclosures of the derivatives of all conditions with respect to some arguments, for all arguments in a box.
@@ -200,7 +266,10 @@ impl System {
             };
             (0..by.len()).map(entry).collect()
         };
-        self.conditions.conditions().iter().map(row).collect()
+        let own = self.conditions.conditions().iter().map(row);
+        let beside = self.beside.iter();
+        own.chain(beside.flat_map(|x| x.derivatives(arguments, by)))
+            .collect()
     }
 
     /// The coefficients of the prefixes of a word in the products of the first 0, 1, … steps.
@@ -218,7 +287,7 @@ impl System {
                     };
                     if !is_zero(&current[start]) {
                         let entry = &powers.entries[degree][end - start];
-                        current[end] = current[end].add(&current[start].multiply(entry));
+                        current[end] = step.add(&current[end], &current[start], entry, degree);
                     }
                 }
             }
@@ -249,10 +318,10 @@ impl System {
                     let letters = end - start;
                     if column.is_some() {
                         let entry = &own.derivatives[degree][letters];
-                        derivative = derivative.add(&suffixes[end].multiply(entry));
+                        derivative = step.add(&derivative, &suffixes[end], entry, degree);
                     }
                     let entry = &own.entries[degree][letters];
-                    suffixes[start] = suffixes[start].add(&suffixes[end].multiply(entry));
+                    suffixes[start] = step.add(&suffixes[start], &suffixes[end], entry, degree);
                 }
                 if let Some(column) = column {
                     let prefix = &prefixes[index][start];
@@ -278,13 +347,15 @@ impl System {
             let words = self.conditions.words().iter();
             words.map(|word| self.exact(word, arguments)).collect()
         };
-        self.conditions.conditions().iter().all(|condition| {
+        let own = self.conditions.conditions().iter().all(|condition| {
             let terms = condition.terms.iter();
             let sum = terms.fold(BigRational::zero(), |sum, (word, factor)| {
                 sum + factor * &values[*word]
             });
             sum == condition.wanted
-        })
+        });
+        let beside = self.beside.as_ref();
+        own && beside.is_none_or(|x| x.holds_exactly(arguments))
     }
 
     fn exact(&self, word: &[u8], arguments: &[BigRational]) -> BigRational {
@@ -298,7 +369,8 @@ impl System {
                         break;
                     };
                     let factorial: BigInt = (1..=end - start).fold(BigInt::one(), |n, k| n * k);
-                    let power = num_traits::pow(x.clone(), degree);
+                    let x = if step.negative { -x } else { x.clone() };
+                    let power = num_traits::pow(x, degree);
                     let block = power / BigRational::from_integer(factorial);
                     let added = &current[start] * block;
                     current[end] += added;
@@ -330,11 +402,9 @@ mod tests {
 
     /// Three steps, kick, drift, kick; the first and the last have different arguments.
     fn system(claim: Claim, kinds: &[Kind]) -> System {
-        let step = |(argument, &kind)| Step { kind, argument };
-        System {
-            steps: kinds.iter().enumerate().map(step).collect(),
-            conditions: Conditions::new(&claim, false).expect("a claim"),
-        }
+        let step = |(argument, &kind)| Step::new(kind, argument);
+        let steps = kinds.iter().enumerate().map(step).collect();
+        System::new(steps, Conditions::new(&claim, false).expect("a claim"))
     }
 
     fn splitting() -> System {

@@ -28,12 +28,13 @@ use crate::symbolic::Constant;
 
 /// A base method, alone or with the steps of a composition.
 pub struct Based {
-    base: Base,
-    weights: Option<Weights>,
+    pub(super) base: Base,
+    pub(super) weights: Option<Weights>,
 }
 
 /// A method by its name in the catalogue or by its definition.
-struct Base {
+#[derive(Clone)]
+pub(super) struct Base {
     /// The name, or the definition in brackets, in canonical form.
     text: String,
     method: Problem,
@@ -47,26 +48,27 @@ struct Symmetry {
 }
 
 /// The steps of a composition.
-struct Weights {
+pub(super) struct Weights {
     /// In canonical form.
-    text: String,
+    pub text: String,
     /// Whether only the first half is written.
-    symmetric: bool,
-    components: Vec<Component>,
+    pub symmetric: bool,
+    pub components: Vec<Component>,
     /// The certificate of printed weights, or the known order of a named composition.
-    given: Option<GivenOrder>,
+    pub given: Option<GivenOrder>,
     /// Whether an order is claimed for printed weights.
-    claimed: bool,
+    pub claimed: bool,
     /// The printed weights that differ from the rounded exact ones.
-    wrong_digits: Vec<Error>,
+    pub wrong_digits: Vec<Error>,
 }
 
 /// A step of the base method.
-struct Component {
+#[derive(Clone)]
+pub(super) struct Component {
     /// The fraction of the whole step.
-    fraction: Factor,
+    pub fraction: Factor,
     /// Whether it is a step of the adjoint.
-    adjoint: bool,
+    pub adjoint: bool,
 }
 
 impl Based {
@@ -147,7 +149,15 @@ impl Based {
         }
     }
 
+    /// The base method, if it is the method itself.
+    pub fn alone(&self) -> Option<&Problem> {
+        self.weights.is_none().then_some(&self.base.method)
+    }
+
     pub fn stages(&self) -> usize {
+        if let Some(method) = self.alone() {
+            return method.stages();
+        }
         let steps = self
             .weights
             .as_ref()
@@ -216,7 +226,7 @@ impl Based {
 }
 
 impl Base {
-    fn read(text: &str, limits: &Limits) -> Result<Self, Vec<Error>> {
+    pub(super) fn read(text: &str, limits: &Limits) -> Result<Self, Vec<Error>> {
         let input = Input {
             name: Key::Base.name(),
             text,
@@ -264,7 +274,7 @@ impl Base {
     }
 
     /// Proves the requirement of certified weights: a symmetric base of kicks and drifts.
-    fn proved_symmetric_splitting(&self, definition: &Definition) -> Result<(), Error> {
+    pub(super) fn proved_symmetric_splitting(&self, definition: &Definition) -> Result<(), Error> {
         let refused = |message| Err(misfit_at(definition, Key::Base, message));
         if self.method.sequence().is_none() {
             return refused(format!(
@@ -479,14 +489,17 @@ impl Symmetry {
 
 /// Extends the first half of a palindromic list to the whole list; its last item is in the middle.
 /// The mirror image of a symmetric method is the method itself.
-fn mirror<T: Clone>(half: &mut Vec<T>) {
+pub(super) fn mirror<T: Clone>(half: &mut Vec<T>) {
     let count = half.len();
     half.extend_from_within(..count.saturating_sub(1));
     half[count..].reverse();
 }
 
 /// Reads `1/2` or `adjoint(1/2)`: the fraction, and whether it belongs to the adjoint.
-fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool), Error> {
+pub(super) fn read_fraction(
+    item: &Expression,
+    input: Input<'_>,
+) -> Result<(Constant, bool), Error> {
     if let ExpressionKind::Call {
         function,
         arguments,
@@ -524,7 +537,7 @@ fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool)
 }
 
 /// A fraction as text.
-fn fraction_text((fraction, adjoint): &(Constant, bool)) -> String {
+pub(super) fn fraction_text((fraction, adjoint): &(Constant, bool)) -> String {
     match adjoint {
         true => format!("adjoint({fraction})"),
         false => fraction.to_string(),

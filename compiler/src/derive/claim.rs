@@ -147,9 +147,17 @@ fn wrong_number(
     message
 }
 
-/// The contents of the brackets of a list, or the whole text.
+/// The processor `P(h) = Q(h) Q(−h)`, as it is written: `back_and_forth(1/3, -1/3)`.
+pub const BACK_AND_FORTH: &str = "back_and_forth";
+
+/// The contents of the brackets of a list or of [`BACK_AND_FORTH`], or the whole text.
 fn list_inside(text: &str) -> Range<usize> {
     let whole = trimmed(text, 0..text.len());
+    let call = text[whole.clone()].strip_prefix(BACK_AND_FORTH);
+    let call = call.and_then(|rest| rest.trim_start().strip_prefix('(')?.strip_suffix(')'));
+    if let Some(inside) = call {
+        return whole.end - 1 - inside.len()..whole.end - 1;
+    }
     let inner = text[whole.clone()].strip_prefix('[');
     match inner.and_then(|rest| rest.strip_suffix(']')) {
         Some(_) => whole.start + 1..whole.end - 1,

@@ -58,6 +58,7 @@ impl Kind {
             Key::First => matches!(self, Kind::Splitting | Kind::Certified),
             Key::Symmetric => matches!(self, Kind::Splitting | Kind::Certified | Kind::Based),
             Key::Claim => matches!(self, Kind::Certified | Kind::Based),
+            Key::Processor => matches!(self, Kind::Splitting | Kind::Based),
             _ => self.telling().contains(&key),
         }
     }
@@ -66,6 +67,8 @@ impl Kind {
     pub fn refuses(self, key: Key) -> String {
         let name = key.name();
         match (self, key) {
+            (Kind::Certified, Key::Processor) => "a `claim` about a processed method takes a `base` with `weights`: write the numbers of a processed splitting as exact ones, without a `claim`".to_owned(),
+            (_, Key::Processor) => "a `processor` goes with the `weights` of a `base`, or with the `kick` and `drift` of a splitting: leave it out".to_owned(),
             (Kind::Certified, _) => format!(
                 "a `claim` is about printed `kick` and `drift`, or about `weights` of a `base`: leave out `{name}`"
             ),

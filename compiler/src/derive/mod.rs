@@ -18,6 +18,7 @@ mod linear;
 mod named_compositions;
 mod node;
 mod problem;
+mod processed;
 mod reading;
 mod sequence;
 mod splitting;

@@ -7,6 +7,7 @@ use super::base_method::Based;
 use super::certified::Certified;
 use super::composition::{self, Step};
 use super::construction_kind::Kind;
+use super::processed::Processed;
 use super::reading::{Errors, misfit, misfit_at, read_matrix, read_vector, switch};
 use super::sequence::{Factor, Sequence};
 use super::splitting::Splitting;
@@ -67,6 +68,8 @@ pub enum Construction {
     Based(Box<Based>),
     /// A composition of steps of other methods.
     Composition { steps: Vec<Step> },
+    /// A kernel between a processor and its inverse.
+    Processed(Box<Processed>),
 }
 
 impl Construction {
@@ -76,15 +79,26 @@ impl Construction {
             Construction::Splitting(splitting) => Some(splitting.sequence()),
             Construction::Certified(certified) => Some(certified.sequence()),
             Construction::Based(based) => based.sequence(),
-            Construction::Composition { steps } => Sequence::joined(steps.iter().map(|step| {
-                (
-                    Factor::Constant(step.fraction.clone()),
-                    step.method.sequence(),
-                )
-            })),
+            Construction::Composition { .. } | Construction::Processed(_) => {
+                Sequence::joined(self.composed()?.iter().map(|step| {
+                    (
+                        Factor::Constant(step.fraction.clone()),
+                        step.method.sequence(),
+                    )
+                }))
+            }
             Construction::Collocation { .. }
             | Construction::Galerkin { .. }
             | Construction::Given { .. } => None,
+        }
+    }
+
+    /// The steps of different methods of which it consists.
+    pub fn composed(&self) -> Option<&[Step]> {
+        match self {
+            Construction::Composition { steps } => Some(steps),
+            Construction::Processed(processed) => Some(processed.steps()),
+            _ => None,
         }
     }
 }
@@ -106,7 +120,7 @@ pub enum Momenta {
 const SYMPLECTIC_PARTNER: &str = "symplectic_partner";
 
 impl Problem {
-    fn new(construction: Construction) -> Self {
+    pub(super) fn new(construction: Construction) -> Self {
         let exact = OnceLock::new();
         Problem {
             construction: Arc::new(Constructed {
@@ -162,6 +176,10 @@ impl Problem {
                 let text = definition.get(Key::Compose).unwrap_or_default();
                 let steps = composition::read(text, limits).map_err(|all| errors.extend(all));
                 steps.ok().map(|steps| Construction::Composition { steps })
+            }
+            Kind::Based | Kind::Splitting if definition.get(Key::Processor).is_some() => {
+                let processed = Processed::read(definition, kind, limits, &mut errors);
+                processed.map(|found| Construction::Processed(Box::new(found)))
             }
             Kind::Based => Based::read(definition, limits, &mut errors).map(Construction::from),
             Kind::Splitting => {
@@ -237,6 +255,7 @@ impl Problem {
             Construction::Splitting(splitting) => splitting.parts(ToString::to_string),
             Construction::Certified(certified) => certified.parts(),
             Construction::Based(based) => based.parts(),
+            Construction::Processed(processed) => processed.parts(),
         };
         for (key, on) in [(Key::Exchange, self.exchange), (Key::Adjoint, self.adjoint)] {
             if on {
@@ -277,6 +296,7 @@ impl Problem {
                 Some(GivenOrder::certified(certified.claim().clone()))
             }
             Construction::Based(based) => based.given(),
+            Construction::Processed(processed) => processed.given(),
             _ => None,
         }?;
         // With positions and momenta exchanged, U is quadratic, or T is the perturbation.
@@ -290,6 +310,7 @@ impl Problem {
         match self.construction() {
             Construction::Certified(certified) => certified.wrong_digits().to_vec(),
             Construction::Based(based) => based.wrong_digits().to_vec(),
+            Construction::Processed(processed) => processed.wrong_digits().to_vec(),
             Construction::Composition { steps } => {
                 let all = steps.iter().flat_map(|step| step.method.wrong_digits());
                 all.map(|error| (*error.kind).into()).collect()
@@ -301,7 +322,7 @@ impl Problem {
         }
     }
 
-    /// The number of stages of the method, or a bound on it.
+    /// The number of stages of the method, or a bound on it; of a processed method the larger of the numbers of its kernel and its processor.
     pub fn stages(&self) -> usize {
         match self.construction() {
             Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
@@ -311,10 +332,18 @@ impl Problem {
             Construction::Splitting(splitting) => splitting.sequence().stages(),
             Construction::Certified(certified) => certified.stages(),
             Construction::Based(based) => based.stages(),
-            Construction::Composition { steps } => match self.construction().sequence() {
-                Some(sequence) => sequence.stages(),
-                None => steps.iter().map(|step| step.method.stages()).sum(),
-            },
+            // Limits apply to what is written.
+            Construction::Processed(processed) => {
+                let [kernel, processor] = processed.parts_of_run();
+                kernel.stages().max(processor.stages())
+            }
+            Construction::Composition { .. } => {
+                let steps = self.construction().composed().unwrap_or_default();
+                match self.construction().sequence() {
+                    Some(sequence) => sequence.stages(),
+                    None => steps.iter().map(|step| step.method.stages()).sum(),
+                }
+            }
         }
     }
 
@@ -335,9 +364,8 @@ impl Problem {
             return Ok(None);
         }
         let outer = match self.construction() {
-            Construction::Composition { steps } => Some(steps.clone()),
             Construction::Based(based) => based.steps(),
-            _ => None,
+            other => other.composed().map(<[Step]>::to_vec),
         };
         let Some(outer) = outer else {
             return Ok(None);
@@ -368,6 +396,33 @@ impl Problem {
             steps.reverse();
         }
         Ok(Some(steps))
+    }
+
+    /// The kernel and the processor of a processed method.
+    pub fn processed(&self) -> Option<[Problem; 2]> {
+        let parts = match self.construction() {
+            Construction::Processed(processed) => processed.parts_of_run(),
+            Construction::Based(based) => based.alone()?.processed()?,
+            _ => return None,
+        };
+        // The adjoint has another processor, P(−h).
+        let exchange = |problem: Problem| Problem {
+            exchange: problem.exchange ^ self.exchange,
+            ..problem
+        };
+        (!self.adjoint).then(|| parts.map(exchange))
+    }
+
+    /// The inverse of the step, as a step of the same size: the step `−h` of the adjoint.
+    ///
+    /// # Errors
+    /// Those of a fraction that is too long.
+    pub fn inverse(&self) -> Result<Problem, ErrorKind> {
+        let step = Step {
+            fraction: Constant::one().negate()?,
+            method: self.adjoint(),
+        };
+        Ok(Problem::composition(vec![step]))
     }
 
     /// The coefficients, derived at the first call.

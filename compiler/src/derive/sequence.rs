@@ -38,6 +38,20 @@ impl Factor {
         }
     }
 
+    /// Minus the factor.
+    ///
+    /// # Errors
+    /// Those of [`Constant`].
+    pub fn negated(&self) -> Result<Factor, ErrorKind> {
+        Ok(match self {
+            Factor::Constant(constant) => Factor::Constant(constant.negate()?),
+            Factor::Real(real) => {
+                let minus = Reals.rational(&BigRational::from_integer((-1).into()));
+                Factor::Real(Reals.multiply(&minus, real))
+            }
+        })
+    }
+
     fn element<F: Field>(&self, field: &F) -> Option<F::Element> {
         match self {
             Factor::Constant(constant) => field.constant(constant),

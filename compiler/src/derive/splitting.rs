@@ -8,7 +8,7 @@
 //! drift   q += drift_i h ∂T/∂p(p)
 //! ```
 
-use super::fractions::off_one;
+use super::fractions::off;
 use super::reading::{Errors, misfit, misfit_at, read_vector, switch};
 use super::sequence::{Sequence, Substep};
 use crate::definition::{Definition, Key};
@@ -182,20 +182,31 @@ impl Splitting {
         limits: &Limits,
         errors: &mut Errors,
     ) -> Option<Self> {
+        Splitting::read_with_sum(1, &[Flow::Kick, Flow::Drift], definition, limits, errors)
+    }
+
+    /// Reads exact coefficients, where the lists of these flows have a given sum.
+    pub fn read_with_sum(
+        wanted: u8,
+        of: &[Flow],
+        definition: &Definition,
+        limits: &Limits,
+        errors: &mut Errors,
+    ) -> Option<Self> {
         let splitting = Splitting::read(definition, limits, errors, read_vector)?;
-        errors.note(splitting.check_sums(definition))?;
+        errors.note(splitting.check_sums(wanted, of, definition))?;
         Some(splitting)
     }
 
-    /// Checks that both lists sum to 1; otherwise the method has order 0.
-    fn check_sums(&self, definition: &Definition) -> Result<(), Error> {
+    /// Checks that lists have their sum; a method whose lists do not sum to 1 has order 0.
+    fn check_sums(&self, wanted: u8, of: &[Flow], definition: &Definition) -> Result<(), Error> {
         let flows = self.flows();
-        for flow in [Flow::Kick, Flow::Drift] {
+        for &flow in of {
             let values = flows.iter().filter(|(kind, _)| *kind == flow);
-            if let Some(sum) = off_one(values.map(|(_, value)| *value)) {
+            if let Some(sum) = off(wanted, values.map(|(_, value)| *value)) {
                 let mirrored = if self.symmetric { ", mirrored," } else { "" };
                 let message = format!(
-                    "the {}s{mirrored} sum to {sum}, but must sum to 1; give exact numbers, one of them as 1 minus the others",
+                    "the {}s{mirrored} sum to {sum}, but must sum to {wanted}; give exact numbers, one of them as {wanted} minus the others",
                     flow.key().name(),
                 );
                 return Err(misfit_at(definition, flow.key(), message));

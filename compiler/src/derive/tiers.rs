@@ -34,7 +34,8 @@ impl Construction {
             Construction::Splitting(splitting) => splitting.sequence().exact(),
             Construction::Certified(certified) => certified.sequence().exact(),
             Construction::Based(based) => based.exact(),
-            Construction::Composition { steps } => {
+            Construction::Composition { .. } | Construction::Processed(_) => {
+                let steps = self.composed().unwrap_or_default();
                 if let Some(sequence) = self.sequence() {
                     return sequence.exact();
                 }

@@ -41,6 +41,15 @@ use crate::tableau::{Tableau, left_out};
 /// [`FormulaError::Taken`] for the name `emitted`; [`ErrorKind::Overflow`] if a coefficient is beyond the largest double;
 /// [`ErrorKind::ExpressionSize`] if a fraction of a composition of compositions would be too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
+    of_method(tableau, header, &documentation(tableau))
+}
+
+/// The type of a method with this text about it.
+fn of_method(
+    tableau: &Tableau,
+    header: &Header,
+    documentation: &str,
+) -> Result<TokenStream, ErrorKind> {
     if header.name == "emitted" {
         return Err(ErrorKind::from(FormulaError::Taken {
             name: header.name.to_string(),
@@ -70,7 +79,6 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         name,
     } = header;
     let constants = constants(tableau, &doubles, matrices);
-    let documentation = documentation(tableau);
     let stages = literal::count(tableau.stages());
     let text = name.to_string();
     let provenance = tableau.provenance();
@@ -108,6 +116,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     );
     let verlet = verlet.then(|| quote!(impl emitted::StoermerVerletSteps for #name {}));
     let symmetric = symmetric(tableau, name);
+    let processed = processed(tableau, name)?;
     let [general, separable] = [&plans[0].name, &plans[1].name];
     let code = plans.iter().map(|plan| &plan.code);
     Ok(quote! {
@@ -143,10 +152,43 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
             #proved
             #symmetric
             #verlet
+            #processed
 
             #(#code)*
         };
     })
+}
+
+/// The kernel and the processor of a processed method, as methods of their own.
+fn processed(tableau: &Tableau, name: &Ident) -> Result<Option<TokenStream>, ErrorKind> {
+    let Some(processed) = tableau.processed() else {
+        return Ok(None);
+    };
+    let [kernel, processor, inverse] =
+        ["Kernel", "Processor", "Inverse"].map(|part| format_ident!("{name}{part}"));
+    let parts = [
+        (&processed.kernel, &kernel),
+        (&processed.processor, &processor),
+        (&processed.inverse, &inverse),
+    ];
+    let code = parts.map(|(tableau, name)| {
+        let header = Header {
+            attributes: TokenStream::new(),
+            visibility: quote!(pub),
+            name: name.clone(),
+        };
+        of_method(tableau, &header, "Part of a processed method.")
+    });
+    let code: Vec<TokenStream> = code.into_iter().collect::<Result<_, _>>()?;
+    Ok(Some(quote! {
+        impl emitted::Processed for #name {
+            type Kernel = #kernel;
+            type Processor = #processor;
+            type Inverse = #inverse;
+        }
+
+        #(#code)*
+    }))
 }
 
 /// The coefficients as constants, each the double nearest to the exact value.

@@ -295,6 +295,10 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
             found.order
         ));
     }
+    if let Some(processed) = tableau.processed() {
+        lines.push(String::new());
+        lines.extend(kernel_lines(tableau, &processed.kernel));
+    }
     lines.push(String::new());
     lines.push("stability on the oscillator, ν = hω".to_owned());
     match tableau.stable_steps() {
@@ -309,6 +313,33 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
         }
         steps @ StableSteps::NotDecided { .. } => lines.push(format!("  stable for ν: {steps}")),
         StableSteps::NotComputed => lines.push(format!("  left out: {}", omitted("all"))),
+    }
+    lines
+}
+
+/// What is known of the kernel of a processed method.
+fn kernel_lines(tableau: &Tableau, kernel: &Tableau) -> Vec<String> {
+    let evaluations = kernel.evaluations().map_or(String::new(), |found| {
+        format!(", {} forces a step", found.forces)
+    });
+    let mut lines = vec![format!(
+        "kernel K of P K P⁻¹, {} stages{evaluations}",
+        kernel.stages()
+    )];
+    let symmetric = kernel.separable_properties().symmetric;
+    let not = if symmetric.holds { "" } else { "not " };
+    lines.push(format!(
+        "  {not}symmetric for separable H, {}",
+        evidence_text(symmetric.evidence)
+    ));
+    for class in HamiltonianClass::ALL {
+        if let Some(found) = tableau.conjugate_order(class) {
+            let order = kernel.orders().class(class).order;
+            lines.push(format!(
+                "  {:10} {order}, conjugate order {found}",
+                class.name()
+            ));
+        }
     }
     lines
 }

@@ -29,6 +29,7 @@
 
 mod class;
 pub(crate) mod composition;
+mod conjugate;
 mod enumeration;
 mod error_constant;
 mod exponential_words;
@@ -45,6 +46,8 @@ mod unrooted;
 mod weights;
 
 pub use class::HamiltonianClass;
+pub(crate) use conjugate::conjugate_order;
+pub use conjugate::{ConjugateOrder, LieTerm, ViolatedKernel};
 pub use enumeration::{TreeRule, Trees};
 pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;

@@ -140,6 +140,28 @@ impl fmt::Display for ViolatedWord {
 /// The order of an explicit method; `None` if it is not a splitting for separable `H`. `given` is the order that follows from its
 /// construction.
 pub(crate) fn perturbed_order(exact: &Exact, given: Option<&GivenOrder>) -> Option<PerturbedOrder> {
+    struct Orders<'a>(Option<&'a GivenOrder>);
+
+    impl OfLetters for Orders<'_> {
+        type Found = Option<PerturbedOrder>;
+
+        fn of<F: Field>(self, field: &F, letters: Vec<(u8, F::Element)>) -> Self::Found {
+            Some(of_letters(field, letters, self.0))
+        }
+    }
+
+    with_letters(exact, Orders(given))
+}
+
+/// What is found from the kicks and drifts of a splitting over any field.
+pub(super) trait OfLetters {
+    type Found;
+
+    fn of<F: Field>(self, field: &F, letters: Vec<(u8, F::Element)>) -> Self::Found;
+}
+
+/// Finds something from the kicks and drifts of a method; `None` if it is not a splitting for separable `H`.
+pub(super) fn with_letters<T, O: OfLetters<Found = Option<T>>>(exact: &Exact, of: O) -> Option<T> {
     let numbers = exact.numbers();
     let graph = StepGraph::new(Class::Separable, exact, &numbers);
     let chain = graph.splitting()?;
@@ -151,15 +173,15 @@ pub(crate) fn perturbed_order(exact: &Exact, given: Option<&GivenOrder>) -> Opti
                 Some((letter(node), weight))
             };
             let letters: Option<Vec<_>> = chain.iter().map(rational).collect();
-            Some(of_letters(&Rationals, letters?, given))
+            of.of(&Rationals, letters?)
         }
         Exact::Field(pair) => {
             let letters = letters(pair, &graph, &chain);
-            Some(of_letters(pair.algebra.field(), letters, given))
+            of.of(pair.algebra.field(), letters)
         }
         Exact::Reals(pair) => {
             let letters = letters(pair, &graph, &chain);
-            Some(of_letters(pair.algebra.field(), letters, given))
+            of.of(pair.algebra.field(), letters)
         }
     }
 }

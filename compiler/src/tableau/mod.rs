@@ -14,7 +14,7 @@ use self::derivation::first;
 use self::proofs::Proofs;
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::definition::Definition;
+use crate::definition::{Definition, Key};
 use crate::derive::Problem;
 use crate::error::{Error, ErrorKind};
 use crate::exact::{Exact, Tier, over_algebra};
@@ -58,7 +58,20 @@ pub struct Tableau {
     pub(crate) given: Option<GivenOrder>,
     pub(crate) wrong_digits: Vec<Error>,
     parts: OnceLock<Result<Parts, ErrorKind>>,
+    processed: OnceLock<Option<Box<Processed>>>,
     proofs: Proofs,
+}
+
+/// The methods of which a processed method `P ∘ K ∘ P⁻¹` consists. The method itself is a step with all of them; in a run
+/// `P ∘ Kⁿ ∘ P⁻¹` only the kernel K is taken in every step.
+#[derive(Debug, Clone)]
+pub struct Processed {
+    /// K
+    pub kernel: Tableau,
+    /// P, whose weights sum to 0.
+    pub processor: Tableau,
+    /// P⁻¹ as a step of size h.
+    pub inverse: Tableau,
 }
 
 impl PartialEq for Tableau {
@@ -112,6 +125,7 @@ impl Tableau {
             given: None,
             wrong_digits: Vec::new(),
             parts: OnceLock::new(),
+            processed: OnceLock::new(),
             proofs: Proofs::default(),
         }
     }
@@ -155,6 +169,36 @@ impl Tableau {
             .get_or_init(derived)
             .as_ref()
             .map_err(Clone::clone)
+    }
+
+    /// The kernel and the processor of a processed method, derived at the first call; `None` for any other method.
+    ///
+    /// ```
+    /// use symplectic_compiler::{Definition, Limits};
+    ///
+    /// // Störmer–Verlet is the symplectic Euler method, processed with half a kick.
+    /// let euler = "kick: [1], drift: [1], processor: [kick: [1/2], drift: [0]]";
+    /// let tableau = Definition::parse(euler)?.derive(&Limits::default())?;
+    /// assert_eq!(tableau.orders().separable.order, 2);
+    /// let kernel = &tableau.processed().expect("a processed method").kernel;
+    /// assert_eq!(kernel.orders().separable.order, 1);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn processed(&self) -> Option<&Processed> {
+        let has = |key| self.provenance.definition.get(key).is_some();
+        if !has(Key::Processor) && (!has(Key::Base) || has(Key::Weights)) {
+            return None;
+        }
+        let derived = || {
+            let [kernel, processor] = self.problem().ok()?.processed()?;
+            let inverse = processor.inverse().ok()?;
+            Some(Box::new(Processed {
+                kernel: Tableau::derived(kernel).ok()?,
+                processor: Tableau::derived(processor).ok()?,
+                inverse: Tableau::derived(inverse).ok()?,
+            }))
+        };
+        self.processed.get_or_init(derived).as_deref()
     }
 
     /// The printed numbers of a definition with a `claim` that the exact method does not round to, each at its place

@@ -7,13 +7,16 @@ use crate::definition::Key;
 use crate::evidence::Evidence;
 use crate::exact::over_algebra;
 use crate::order::{
-    HamiltonianClass, ModifiedTerm, OrderOptions, OrderReport, Pendulum, PerturbedOrder,
-    SimplifyingAssumptions, SymplecticityOrder, modified_equation, observed_order, order,
-    perturbed_order, simplifying_assumptions, symplecticity_order,
+    ConjugateOrder, HamiltonianClass, ModifiedTerm, OrderOptions, OrderReport, Pendulum,
+    PerturbedOrder, SimplifyingAssumptions, SymplecticityOrder, conjugate_order, modified_equation,
+    observed_order, order, perturbed_order, simplifying_assumptions, symplecticity_order,
 };
 use crate::properties::{Properties, SeparableProperties};
 use crate::schedule::Evaluations;
 use crate::stability::{MAX_STAGES, Stability, StabilityInterval, StableSteps};
+
+/// The highest conjugate order that is looked for: the words of the next degree are 512.
+const MAX_CONJUGATE_ORDER: usize = 9;
 
 /// What has been decided so far.
 #[derive(Debug, Clone, Default)]
@@ -140,7 +143,11 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn stability(&self) -> Stability {
-        let decided = || Stability::of(&self.exact);
+        // That of a processed method is the stability of its kernel, to which it is conjugate.
+        let decided = || match self.processed() {
+            Some(processed) => processed.kernel.stability(),
+            None => Stability::of(&self.exact),
+        };
         self.proofs.stability.get_or_init(decided).clone()
     }
 
@@ -159,7 +166,10 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn first_stable_interval(&self) -> Option<StabilityInterval> {
-        let decided = || Stability::first_interval(&self.exact);
+        let decided = || match self.processed() {
+            Some(processed) => processed.kernel.first_stable_interval(),
+            None => Stability::first_interval(&self.exact),
+        };
         self.proofs.first_stable.get_or_init(decided).clone()
     }
 
@@ -175,6 +185,9 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn stable_steps(&self) -> StableSteps {
+        if let Some(processed) = self.processed() {
+            return processed.kernel.stable_steps();
+        }
         if self.stages() <= MAX_STAGES {
             let stability = self.stability();
             return match stability.evidence {
@@ -205,6 +218,35 @@ impl Tableau {
     /// ```
     pub fn order(&self, options: &OrderOptions) -> OrderReport {
         order(&self.exact, options, self.given.as_ref())
+    }
+
+    /// The conjugate order of a splitting for a class of Hamiltonians: the order that a change of variables gives it, for a processed method
+    /// that of its kernel. `None` for other methods and for general Hamiltonians.
+    ///
+    /// ```
+    /// use symplectic_compiler::{Definition, Evidence, Limits, order::HamiltonianClass};
+    ///
+    /// // The symplectic Euler method is conjugate to Störmer–Verlet.
+    /// let euler = Definition::parse("kick: [1], drift: [1]")?.derive(&Limits::default())?;
+    /// let found = euler.conjugate_order(HamiltonianClass::Separable).expect("a splitting");
+    /// assert_eq!((found.order, found.evidence), (2, Evidence::Proved));
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    pub fn conjugate_order(&self, class: HamiltonianClass) -> Option<ConjugateOrder> {
+        let Some(processed) = self.processed() else {
+            return conjugate_order(&self.exact, class, MAX_CONJUGATE_ORDER);
+        };
+        let kernel = &processed.kernel;
+        let mut found = kernel.conjugate_order(class)?;
+        // The kernel has at least the order of the whole, and a symmetric one an even order.
+        let report = self.orders();
+        let whole = report.class(class);
+        let symmetric = kernel.separable_properties().symmetric.holds;
+        let known = whole.order + usize::from(symmetric && whole.order % 2 == 1);
+        if matches!(found.evidence, Evidence::Verified { .. }) && known >= found.order {
+            found.evidence = whole.evidence;
+        }
+        Some(found)
     }
 
     /// The simplifying assumptions that hold; `None` if `b` differs from `b̃`.
@@ -310,7 +352,7 @@ impl Tableau {
     /// explicit for them; `None` for a method with coupled stages.
     ///
     /// Evaluations of the previous step that are reused (first same as last) do not count: only the very first step
-    /// makes them.
+    /// makes them. Those of a processed method are the evaluations of its kernel.
     ///
     /// ```
     /// use symplectic_compiler::schedule::Evaluations;
@@ -322,6 +364,9 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn evaluations(&self) -> Option<Evaluations> {
-        Evaluations::of(&self.exact)
+        match self.processed() {
+            Some(processed) => processed.kernel.evaluations(),
+            None => Evaluations::of(&self.exact),
+        }
     }
 }

@@ -12,6 +12,7 @@ mod golden;
 mod observed_order;
 mod older_files;
 mod perturbed;
+mod processed;
 mod properties;
 mod refused_files;
 mod splittings;

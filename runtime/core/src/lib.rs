@@ -31,7 +31,7 @@ pub use contract::{Method, Orders, ProvedFor};
 pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
-pub use integrator::{Integrator, Retry, Run, Statistics};
+pub use integrator::{Integrator, ProcessedIntegrator, Retry, Run, Statistics};
 pub use method::{composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
@@ -46,15 +46,15 @@ pub use system::{
 /// What is proved of a method, as bounds of generic code.
 pub mod proved {
     pub use crate::contract::{
-        LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
+        LowerOrder, Method, Orders, Processed, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
     };
 }
 
 /// All integrators, and your own: the trait of a stepper, and what a [`Run`] asks of it.
 pub mod stepper {
     pub use crate::integrator::{
-        DenseSteps, Equal, NamedSteps, Own, Pace, Partitioned, PhasePoint, Reach, Reached,
-        RemainingSteps, Run, StepMap, Stepper,
+        DenseSteps, Equal, NamedSteps, Own, Pace, Partitioned, PhasePoint, ProcessedSteps, Reach,
+        Reached, RemainingSteps, Run, StepMap, Stepper,
     };
     pub use crate::state::Timed;
 }

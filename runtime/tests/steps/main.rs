@@ -16,6 +16,7 @@ mod impacts;
 mod newton;
 mod newton_of_chains;
 mod parameters;
+mod processed;
 mod proved;
 mod recording;
 mod restart;

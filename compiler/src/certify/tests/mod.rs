@@ -101,10 +101,8 @@ fn residuals(certificate: &Certificate, claim: &Claim, bits: u32) -> Vec<Interva
         });
     }
     let (steps, arguments) = expanded(&targets, &unknowns, bits);
-    let system = System {
-        steps,
-        conditions: Conditions::new(claim, false).expect("a claim"),
-    };
+    let conditions = Conditions::new(claim, false).expect("a claim");
+    let system = System::new(steps, conditions);
     system.residuals(&arguments)
 }
 

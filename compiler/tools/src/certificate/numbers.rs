@@ -120,19 +120,22 @@ impl Numbers {
         let all = b
             .iter()
             .chain(&b_tilde)
-            .chain(solved.weights.iter().flatten());
+            .chain(solved.weights.iter().flatten())
+            .chain(solved.processor.iter().flat_map(|x| &x.weights));
         let unknowns: BTreeSet<usize> = all.flat_map(|x| x.factors.keys().copied()).collect();
         let list = |list: &[Affine]| List(list.iter().map(|x| coordinates(x, &unknowns)).collect());
         let lower_triangular = pair.lower_triangular()?;
         let enclosed = certificate.enclosed_unknowns(solution::BITS);
-        let enclosed = |index: &usize| Some((*index, enclosed.get(*index)?.clone()));
+        let with_index = |index: &usize| Some((*index, enclosed.get(*index)?.clone()));
+        let processor = solved.processor.as_ref();
         let proof = Solution {
             claim: &solved.claim,
             lower_triangular,
             b: &b,
             b_tilde: &b_tilde,
             weights: solved.weights.as_deref(),
-            unknowns: unknowns.iter().filter_map(enclosed).collect(),
+            processed: processor.map(|x| (&x.system, &x.arguments[..])),
+            unknowns: unknowns.iter().filter_map(with_index).collect(),
         };
         let (class, orders) = claim(&solved.claim);
         let orders = orders.iter().map(|order| Literal(order.to_string()));
@@ -144,6 +147,14 @@ impl Numbers {
         ];
         kind.extend(proof.proof()?);
         kind.extend(solved.weights.as_deref().map(|x| ("weights", list(x))));
+        kind.extend(processor.map(|x| {
+            let weights = ("weights", list(&x.weights));
+            let both_ways = Literal(x.back_and_forth.to_string());
+            (
+                "processor",
+                Table(vec![weights, ("back_and_forth", both_ways)]),
+            )
+        }));
         Some(Numbers {
             kind: Table(kind),
             lower_triangular: Some(lower_triangular),

@@ -34,6 +34,8 @@ pub(super) struct Solution<'a> {
     pub b_tilde: &'a [Affine],
     /// The fractions of a composition of Störmer–Verlet.
     pub weights: Option<&'a [Affine]>,
+    /// The conditions of a processed composition, and all their arguments.
+    pub processed: Option<(&'a System, &'a [Affine])>,
     /// The unknowns with their enclosures, of [`BITS`] binary places.
     pub unknowns: BTreeMap<usize, Interval>,
 }
@@ -41,9 +43,10 @@ pub(super) struct Solution<'a> {
 impl Solution<'_> {
     /// The members of the certificate; `None` if the derivative has no inverse.
     pub(super) fn proof(&self) -> Option<Vec<(&'static str, Fact)>> {
-        let mut derivatives = match self.claim {
-            Claim::Nystrom(order) => self.derivatives_of_trees(*order),
-            _ => self.derivatives_of_words()?,
+        let mut derivatives = match (self.processed, self.claim) {
+            (Some((system, arguments)), _) => self.derivatives_of(system, arguments),
+            (None, Claim::Nystrom(order)) => self.derivatives_of_trees(*order),
+            (None, _) => self.derivatives_of_words()?,
         };
         // Conditions without unknowns.
         derivatives.retain(|(_, row)| row.iter().any(|x| !is_zero(x)));
@@ -87,7 +90,7 @@ impl Solution<'_> {
             if known.is_none() {
                 arguments.push(x);
             }
-            steps.push(Step { kind, argument });
+            steps.push(Step::new(kind, argument));
         }
         let symmetric = steps.iter().eq(steps.iter().rev());
         let conditions = Conditions::new(self.claim, symmetric).ok()?;
@@ -96,25 +99,48 @@ impl Solution<'_> {
         let names: Vec<String> = words.iter().map(name).collect();
         let values: Vec<Interval> = arguments.iter().map(|x| self.value(x)).collect();
         let all: Vec<usize> = (0..arguments.len()).collect();
-        let rows = System { steps, conditions }.derivatives(&values, &all);
-        let zero = Interval::enclosing(&BigRational::default(), BITS);
-        // The arguments are functions of the unknowns.
-        let by = |row: &Vec<Interval>, unknown: &usize| {
-            let terms = arguments.iter().zip(row);
-            terms.fold(zero.clone(), |sum, (x, derivative)| {
-                match x.factors.get(unknown) {
-                    Some(factor) => sum.add(&derivative.scale(factor)),
-                    None => sum,
-                }
-            })
-        };
+        let rows = System::new(steps, conditions).derivatives(&values, &all);
         let row = |(word, row): (&Word, &Vec<Interval>)| {
             let factorial = (1..=word.len()).fold(BigInt::one(), |n, k| n * k);
-            let scaled = |x| by(row, x).scale(&BigRational::from_integer(factorial.clone()));
+            let arguments = || arguments.iter().copied();
+            let factorial = BigRational::from_integer(factorial);
+            let scaled = |x| by(arguments(), row, x).scale(&factorial);
             self.unknowns.keys().map(scaled).collect()
         };
         let rows = words.iter().zip(&rows).map(row);
         Some(names.into_iter().zip(rows).collect())
+    }
+
+    /// The same for a processed composition: the words of the whole, and those that vanish in the processor. That its weights sum to 0 is no
+    /// condition on the unknowns.
+    fn derivatives_of(
+        &self,
+        system: &System,
+        arguments: &[Affine],
+    ) -> Vec<(String, Vec<Interval>)> {
+        let words = |system: &System, prefix: &str| -> Vec<(String, usize)> {
+            let alphabet = system.conditions.alphabet();
+            let word = |word: &Word| (format!("{prefix}{}", alphabet.text(word)), word.len());
+            system.conditions.words().iter().map(word).collect()
+        };
+        let of_whole = words(system, "");
+        let linear = of_whole.len();
+        let of_processor = system.beside.iter().flat_map(|x| words(x, "processor "));
+        let names = of_whole.into_iter().chain(of_processor);
+        let values: Vec<Interval> = arguments.iter().map(|x| self.value(x)).collect();
+        let all: Vec<usize> = (0..arguments.len()).collect();
+        let rows = system.derivatives(&values, &all);
+        let named = names.zip(&rows).enumerate();
+        let named = named.filter(|(index, _)| *index != linear);
+        named
+            .map(|(_, ((name, length), row))| {
+                let factorial = (1..=length).fold(BigInt::one(), |n, k| n * k);
+                let factorial = BigRational::from_integer(factorial);
+                let unknowns = self.unknowns.keys();
+                let row = unknowns.map(|x| by(arguments.iter(), row, x).scale(&factorial));
+                (name, row.collect())
+            })
+            .collect()
     }
 
     /// One tree for all its rootings, and the difference quotients of its elementary weight by the unknowns.
@@ -182,6 +208,20 @@ impl Solution<'_> {
             },
         )
     }
+}
+
+/// The derivative by an unknown of which the arguments are functions, from those by the arguments.
+fn by<'a>(
+    arguments: impl Iterator<Item = &'a Affine>,
+    row: &[Interval],
+    unknown: &usize,
+) -> Interval {
+    let zero = Interval::enclosing(&BigRational::default(), BITS);
+    let terms = arguments.zip(row);
+    terms.fold(zero, |sum, (x, derivative)| match x.factors.get(unknown) {
+        Some(factor) => sum.add(&derivative.scale(factor)),
+        None => sum,
+    })
 }
 
 fn is_zero(x: &Interval) -> bool {

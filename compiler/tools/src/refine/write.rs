@@ -140,7 +140,7 @@ pub(super) fn report(refinement: &Refinement, digits: usize) -> Result<Report, E
         let list = match name {
             Coefficient::Kick(_) => &mut report.kick,
             Coefficient::Drift(_) => &mut report.drift,
-            Coefficient::Weight(_) => &mut report.weights,
+            Coefficient::Weight(_) | Coefficient::Processor(_) => &mut report.weights,
         };
         list.push(Entry {
             name: *name,

@@ -14,6 +14,7 @@ pub(crate) mod linearity;
 mod masses;
 mod method;
 mod plan;
+mod processed;
 mod proved;
 pub(crate) mod relax;
 #[cfg(feature = "alloc")]
@@ -46,6 +47,7 @@ pub use kick_drift::KickDrift;
 pub use masses::Masses;
 pub use method::Method;
 pub use plan::Plan;
+pub use processed::Processed;
 pub use proved::{
     LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
 };

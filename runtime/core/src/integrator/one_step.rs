@@ -1,7 +1,8 @@
 //! One step: computed, checked, and accepted or rejected.
 
 use super::first_step::{may_depend_on_start, reason_of};
-use super::memory::Failed;
+use super::memory::{Failed, StepMemory};
+use super::partitioned::MemoryOf;
 use super::{Partitioned, PlanOf};
 use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
@@ -104,26 +105,30 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     #[cold]
     pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
         let number = self.step_memory.statistics.steps + 1;
-        let (step, outcome, memory) = self.step_memory.lend(size);
-        let attempt = Attempt::of(&step, number).with_solver::<V, S, N>();
-        let mut fault = FirstFault::new(attempt.dimension);
-        if failure.is_none() {
-            <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
-                &step,
-                &self.system,
-                memory,
-                outcome,
-                &mut fault,
-            );
-        }
-        let error = attempt.error(
-            failure,
-            &fault,
-            &self.step_memory.memory,
-            &self.step_memory.next.0,
-        );
-        self.step_memory.forget();
-        let error = S::Class::explain(&self.system, error);
-        self.system.explain(error, &self.step_memory.state.q)
+        error_of::<M, S, V, R, N>(&mut self.step_memory, &self.system, size, number, failure)
     }
+}
+
+/// Returns the reason of a failed step of this number, and forgets all data that the step left behind.
+#[cold]
+pub(super) fn error_of<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>(
+    step_memory: &mut StepMemory<V, MemoryOf<M, S, V, N>>,
+    system: &S,
+    size: f64,
+    number: u64,
+    failure: Option<Failure>,
+) -> Error {
+    let (step, outcome, memory) = step_memory.lend(size);
+    let attempt = Attempt::of(&step, number).with_solver::<V, S, N>();
+    let mut fault = FirstFault::new(attempt.dimension);
+    if failure.is_none() {
+        <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
+            &step, system, memory, outcome, &mut fault,
+        );
+    }
+    let (memory, next) = (&step_memory.memory, &step_memory.next.0);
+    let error = attempt.error(failure, &fault, memory, next);
+    step_memory.forget();
+    let error = S::Class::explain(system, error);
+    system.explain(error, &step_memory.state.q)
 }

@@ -35,6 +35,20 @@ pub(super) fn memory_of<M: Method, S: System<V>, V: Vector, N: Solver<V, S>>(
     <S::Class as Class>::memory::<M, V, S, N>(method, prototype)
 }
 
+/// The memory of the steps of a method from a state.
+pub(super) fn step_memory_of<M: Method, S: System<V>, V: Vector, N: Solver<V, S>>(
+    method: &M,
+    system: &S,
+    state: State<V>,
+) -> StepMemory<V, MemoryOf<M, S, V, N>> {
+    let linear_velocity = has_linear_velocity::<V, S, N>(system, &state);
+    let memory = memory_of::<M, S, V, N>(method, &state.q);
+    let mut step_memory = StepMemory::new(memory, linear_velocity, state);
+    let State { time, q, p } = &step_memory.state;
+    <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(&mut step_memory.memory, system, *time, q, p);
+    step_memory
+}
+
 /// An integrator: a method that steps a system from a state.
 ///
 /// [`new`](crate::Integrator#method.new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages,
@@ -291,20 +305,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
-    fn unchecked(method: M, system: S, state: State<V>) -> Self {
-        let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
-        let memory = memory_of::<M, S, V, N>(&method, &state.q);
-        let mut step_memory = StepMemory::new(memory, linear_velocity, state);
-        let State { time, q, p } = &step_memory.state;
-        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(
-            &mut step_memory.memory,
-            &system,
-            *time,
-            q,
-            p,
-        );
+    pub(super) fn unchecked(method: M, system: S, state: State<V>) -> Self {
         Self {
-            step_memory,
+            step_memory: step_memory_of::<M, S, V, N>(&method, &system, state),
             system,
             stopping: Stopping::DEFAULT,
             method,

@@ -34,6 +34,7 @@
 /// | `first` | `drift` if each drift comes before the kick of the same number; default `kick` |
 /// | `claim` | `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`: the lists are printed digits, and the method is the exact one of that order, proved to lie near them |
 /// | `symmetric` | `true` if the lists are the first half of a palindrome: the last entry is the middle and occurs once. The flow that comes first may have one entry more than the other; its last entry is then the middle |
+/// | `processor` | `[kick: [1/2], drift: [0]]`: a processor P, whose drifts sum to 0. The method is `P ∘ K ∘ P⁻¹` with the splitting as the kernel K: see [`ProcessedIntegrator`](crate::ProcessedIntegrator). Without a `claim` |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///
 /// Drifts with no kick between them are merged into one, and likewise kicks. A 0 at either end is dropped. The method is the partitioned
@@ -110,6 +111,7 @@ pub use symplectic_macros::splitting;
 /// | `weights` | the fractions `γ_i` of the step, with sum 1; `adjoint(1/2)` for a step of the adjoint. Or `triple_jump(p)`, `suzuki(p)` for an even order `p` up to 10 from a symmetric base |
 /// | `symmetric` | `true` if the weights are the first half of a palindrome: the last one is the middle and occurs once. The base has to be symmetric |
 /// | `claim` | `separable(8)`: the weights are printed digits, and the method has the exact weights near them, which are proved to exist. With these every symmetric base of order 2 gives that order. The base is a splitting |
+/// | `processor` | fractions of steps of the base that sum to 0, the first step first, or `back_and_forth(1/3, -1/3)` for the steps −1/3, 1/3, 1/3, −1/3: a processor P. The method is `P ∘ K ∘ P⁻¹` with the composition as the kernel K: see [`ProcessedIntegrator`](crate::ProcessedIntegrator). A `claim` is about the order of all three |
 /// | `compose` | instead of these: steps of several methods, `[[γ_1, definition], …]` |
 /// | `exchange`, `adjoint`, `require`, `accept`, `max_stages` | as in [`tableau!`](crate::tableau) |
 ///

@@ -26,8 +26,8 @@
 /// | `weights` | of the quadrature, if not the interpolatory ones: `[1/6, 2/3, 1/6]` |
 /// | `a`, `b` | instead of `basis`: given coefficients, `[[0, 0], [1/2, 1/2]]` and `[1/2, 1/2]` |
 /// | `a_tilde`, `b_tilde` | with `a` and `b`: the coefficients for momenta, or `a_tilde: symplectic_partner`; default: those for positions |
-/// | `kick`, `drift`, `first`, `symmetric`, `claim` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
-/// | `base`, `weights`, `symmetric`, `claim` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
+/// | `kick`, `drift`, `first`, `symmetric`, `processor`, `claim` | instead of all these: a splitting, as in [`splitting!`](crate::splitting) |
+/// | `base`, `weights`, `symmetric`, `processor`, `claim` | instead of all these: a method of the catalogue, or a composition of steps of it, as in [`composition!`](crate::composition) |
 /// | `compose` | instead of all these: steps of other methods one after another, each with its fraction of the step and its definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]` |
 /// | `exchange` | `true` exchanges positions and momenta at the end |
 /// | `adjoint` | `true` for the adjoint of the method |

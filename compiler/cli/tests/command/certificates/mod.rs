@@ -89,6 +89,39 @@ fn the_checker_without_its_other_files_names_the_unchecked_claims() {
     }
 }
 
+/// Every change of a processor is found: of a weight, of its kind, and of the order.
+#[test]
+fn the_checker_finds_a_changed_processor() {
+    let text = std::fs::read_to_string(root().join("tableaux/certificates/processed-8-17.json"))
+        .expect("a certificate");
+    let folder = folder("processor");
+    let changes = [
+        ("", "", "separable 8"),
+        (
+            "\"back_and_forth\": true",
+            "\"back_and_forth\": false",
+            "WRONG",
+        ),
+        ("\"orders\": [8]", "\"orders\": [9]", "WRONG"),
+        ("\"processor E3\"", "\"processor E5\"", "WRONG"),
+        (
+            "397810268625058950790974641671",
+            "397810268625058950790974641673",
+            "WRONG",
+        ),
+    ];
+    for (from, to, expected) in changes {
+        assert!(text.contains(from), "{from}");
+        let file = folder.join("changed.json");
+        std::fs::write(&file, text.replacen(from, to, 1)).expect("written");
+        let program = "tableaux/check_certificate.py";
+        let Some((_, found)) = python(&[program, file.to_str().expect("a path")]) else {
+            return;
+        };
+        assert!(found.contains(expected), "{from}: {found}");
+    }
+}
+
 /// The numbers of rooted trees with two colours, in all and where the colours alternate (OEIS A000151, A000081, each twice);
 /// the conditions of each order that symplectic methods have for quadratic T (Calvo & Sanz-Serna 1993).
 #[test]
