@@ -12,20 +12,23 @@ mod quotient;
 mod read;
 mod waves;
 
-pub use self::order::FittedOrder;
+pub use self::order::{FittedOrder, FittedOrders};
 pub use self::oscillator::PhaseError;
 pub use self::quotient::Quotient;
 pub use self::waves::{Ring, Wave, Waves};
 
 use num_rational::BigRational;
 
-use crate::algebra::{Constants, FieldElement};
+use crate::algebra::{Constants, Field, FieldElement};
 use crate::coefficients::Coefficients;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::quadrature::Nodes;
+
+/// The coefficients of `1, ν, ν², …`.
+type Series = Vec<FieldElement>;
 
 /// The largest number of stages: the determinants grow with its factorial.
 const MAX_STAGES: usize = 5;
@@ -105,13 +108,16 @@ impl Fitted {
             input.error(&(0..nodes_text.len()), kind)
         };
         let constants = nodes.constants().map_err(at_nodes)?;
-        let field = Constants::containing(&constants).filter(|field| field.number_field().is_some());
+        let field =
+            Constants::containing(&constants).filter(|field| field.number_field().is_some());
         let elements = field.as_ref().and_then(|field| {
-            let elements = constants.iter().map(|c| crate::algebra::Field::constant(field, c));
+            let elements = constants.iter().map(|c| Field::constant(field, c));
             elements.collect::<Option<Vec<_>>>()
         });
         let (Some(field), Some(elements)) = (field, elements) else {
-            let message = "with `parameters` the nodes are algebraic numbers in a field of small degree".to_owned();
+            let message =
+                "with `parameters` the nodes are algebraic numbers in a field of small degree"
+                    .to_owned();
             return Err(at_nodes(ErrorKind::Definition { message }));
         };
         let ring = Ring { field };
@@ -154,7 +160,10 @@ impl Fitted {
         let denominator = match (values.first(), adjugate.first()) {
             (Some(row), Some(_)) => {
                 let terms = row.iter().zip(&adjugate).map(|(x, column)| {
-                    column.first().map(|y| ring.multiply(x, y)).unwrap_or_default()
+                    column
+                        .first()
+                        .map(|y| ring.multiply(x, y))
+                        .unwrap_or_default()
                 });
                 terms.fold(Waves::default(), |sum, term| ring.add(&sum, &term))
             }
@@ -168,7 +177,8 @@ impl Fitted {
             });
         }
         let solved = |end: &FieldElement| -> Vec<Waves> {
-            let integrals: Vec<Waves> = basis.iter().map(|(_, f)| integral(&ring, f, end)).collect();
+            let integrals: Vec<Waves> =
+                basis.iter().map(|(_, f)| integral(&ring, f, end)).collect();
             let entry = |row: &Vec<Waves>| dot(&ring, row, &integrals);
             adjugate.iter().map(entry).collect()
         };
@@ -176,7 +186,7 @@ impl Fitted {
         if let Some(index) = b.iter().position(Waves::is_zero) {
             return Err(ErrorKind::ZeroWeight {
                 index: index + 1,
-                node: crate::algebra::Field::exact(&ring.field, &nodes[index]).unwrap_or_default(),
+                node: Field::exact(&ring.field, &nodes[index]).unwrap_or_default(),
             });
         }
         Ok(Fitted {
@@ -232,50 +242,43 @@ impl Fitted {
 
     /// An element of the number field as a number.
     pub fn number(&self, x: &FieldElement) -> crate::algebra::Number<'_> {
-        crate::algebra::Field::number(&self.ring.field, x)
+        Field::number(&self.ring.field, x)
     }
 
-    /// All coefficients, with `ã_ij = b_j (b_i − a_ji)/b_i`.
-    pub fn coefficients(&self) -> Coefficients<Quotient> {
-        let ring = &self.ring;
-        let over = |numerator: &Waves| ring.quotient(numerator.clone(), self.denominator.clone());
-        let partner = |i: usize, j: usize| {
-            let numerator = ring.multiply(&self.b[j], &ring.subtract(&self.b[i], &self.a[j][i]));
-            ring.quotient(numerator, ring.multiply(&self.denominator, &self.b[i]))
+    /// The coefficients `a_ij` and `b_i` of the construction. The others follow: `b̃ = b`, `ã_ij = b_j (b_i − a_ji)/b_i`, and `c_i` and `c̃_i`
+    /// are the sums of the rows. With `exchange` `a_ij` is `ã_ij` of the method, and so on.
+    pub fn constructed(&self) -> (Vec<Vec<Quotient>>, Vec<Quotient>) {
+        let over = |numerator: &Waves| {
+            self.ring
+                .quotient(numerator.clone(), self.denominator.clone())
         };
-        let stages = 0..self.stages();
-        let a: Vec<Vec<Quotient>> = self.a.iter().map(|row| row.iter().map(over).collect()).collect();
-        let a_tilde: Vec<Vec<Quotient>> = stages
-            .clone()
-            .map(|i| stages.clone().map(|j| partner(i, j)).collect())
-            .collect();
-        let sum = |numerators: Vec<Waves>, denominator: Waves| {
-            let add = |sum: Waves, x: &Waves| ring.add(&sum, x);
-            let total = numerators.iter().fold(Waves::default(), add);
-            ring.quotient(total, denominator)
-        };
-        let c = self.a.iter().map(|row| sum(row.clone(), self.denominator.clone()));
-        let c_tilde = stages.clone().map(|i| {
-            let entry = |j: usize| {
-                ring.multiply(&self.b[j], &ring.subtract(&self.b[i], &self.a[j][i]))
-            };
-            let numerators = stages.clone().map(entry).collect();
-            sum(numerators, ring.multiply(&self.denominator, &self.b[i]))
-        });
-        let b: Vec<Quotient> = self.b.iter().map(over).collect();
-        let [positions, momenta] = [(c.collect(), a), (c_tilde.collect(), a_tilde)];
-        let [(c, a), (c_tilde, a_tilde)] = match self.exchanged {
-            false => [positions, momenta],
-            true => [momenta, positions],
-        };
-        Coefficients {
-            c,
-            c_tilde,
-            b_tilde: b.clone(),
-            b,
-            a,
-            a_tilde,
-        }
+        let vector = |v: &Vec<Waves>| v.iter().map(over).collect();
+        (self.a.iter().map(vector).collect(), vector(&self.b))
+    }
+
+    /// The common denominator of the `a_ij` and `b_i`, and their numerators, without negative powers of `ν`; before any exchange of
+    /// positions and momenta.
+    pub fn over_denominator(&self) -> (Waves, Vec<Vec<Waves>>, Vec<Waves>) {
+        let all = self
+            .a
+            .iter()
+            .flatten()
+            .chain(&self.b)
+            .chain([&self.denominator]);
+        let lowest = all.filter_map(Waves::lowest_power).min().unwrap_or(0);
+        let one = self.ring.rational(BigRational::from_integer(1.into()));
+        let shifted = |x: &Waves| self.ring.scale(x, &one, -lowest);
+        let vector = |v: &Vec<Waves>| v.iter().map(shifted).collect();
+        (
+            shifted(&self.denominator),
+            self.a.iter().map(vector).collect(),
+            vector(&self.b),
+        )
+    }
+
+    /// Whether positions and momenta are exchanged.
+    pub fn is_exchanged(&self) -> bool {
+        self.exchanged
     }
 
     /// The first coefficients of the power series in `ν` of all coefficients. The first of each is the coefficient of the limit.
@@ -283,20 +286,43 @@ impl Fitted {
     /// # Errors
     /// [`ErrorKind::Definition`] if a coefficient has no limit at `ν = 0`.
     pub fn series(&self, length: usize) -> Result<Coefficients<Vec<FieldElement>>, ErrorKind> {
-        let coefficients = self.coefficients();
-        let vector = |v: &[Quotient]| -> Result<Vec<_>, ErrorKind> {
+        let (a, b) = self.constructed();
+        let vector = |v: &[Quotient]| -> Result<Vec<Series>, ErrorKind> {
             v.iter().map(|x| self.ring.series(x, length)).collect()
         };
-        let matrix = |m: &[Vec<Quotient>]| -> Result<Vec<_>, ErrorKind> {
-            m.iter().map(|row| vector(row)).collect()
+        let a = a
+            .iter()
+            .map(|row| vector(row))
+            .collect::<Result<Vec<_>, _>>()?;
+        let b = vector(&b)?;
+        let ring = &self.ring;
+        let partner = |i: usize, j: usize| -> Result<Series, ErrorKind> {
+            let pairs = b[i].iter().zip(&a[j][i]);
+            let rest: Series = pairs
+                .map(|(b, a)| Field::subtract(&ring.field, b, a))
+                .collect();
+            ring.divide(&ring.times(&b[j], &rest, length), &b[i], length)
         };
+        let stages = 0..self.stages();
+        let row = |i: usize| {
+            stages
+                .clone()
+                .map(|j| partner(i, j))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let a_tilde = stages.clone().map(row).collect::<Result<Vec<_>, _>>()?;
+        let (a, a_tilde) = match self.exchanged {
+            false => (a, a_tilde),
+            true => (a_tilde, a),
+        };
+        let sums = |m: &[Vec<Series>]| m.iter().map(|row| ring.total(row, length)).collect();
         Ok(Coefficients {
-            c: vector(&coefficients.c)?,
-            c_tilde: vector(&coefficients.c_tilde)?,
-            b: vector(&coefficients.b)?,
-            b_tilde: vector(&coefficients.b_tilde)?,
-            a: matrix(&coefficients.a)?,
-            a_tilde: matrix(&coefficients.a_tilde)?,
+            c: sums(&a),
+            c_tilde: sums(&a_tilde),
+            b_tilde: b.clone(),
+            b,
+            a,
+            a_tilde,
         })
     }
 
@@ -319,7 +345,10 @@ impl Fitted {
     /// Whether the weights sum to 1 for every `ν`.
     pub fn is_consistent(&self) -> bool {
         let ring = &self.ring;
-        let sum = self.b.iter().fold(Waves::default(), |sum, b| ring.add(&sum, b));
+        let sum = self
+            .b
+            .iter()
+            .fold(Waves::default(), |sum, b| ring.add(&sum, b));
         ring.subtract(&sum, &self.denominator).is_zero()
     }
 
@@ -372,8 +401,8 @@ impl Fitted {
 fn value(ring: &Ring, function: &Waves, c: &FieldElement) -> Waves {
     mapped(ring, function, |wave, coefficient| {
         let power = ring.power(c, wave.power.unsigned_abs());
-        let frequency = crate::algebra::Field::multiply(&ring.field, &wave.frequency, c);
-        let factor = crate::algebra::Field::multiply(&ring.field, coefficient, &power);
+        let frequency = Field::multiply(&ring.field, &wave.frequency, c);
+        let factor = Field::multiply(&ring.field, coefficient, &power);
         ring.wave(0, frequency, wave.sine, factor)
     })
 }
@@ -387,7 +416,9 @@ fn integral(ring: &Ring, function: &Waves, c: &FieldElement) -> Waves {
 }
 
 fn mapped(ring: &Ring, function: &Waves, each: impl Fn(&Wave, &FieldElement) -> Waves) -> Waves {
-    let terms = function.terms().map(|(wave, coefficient)| each(wave, coefficient));
+    let terms = function
+        .terms()
+        .map(|(wave, coefficient)| each(wave, coefficient));
     terms.fold(Waves::default(), |sum, term| ring.add(&sum, &term))
 }
 

@@ -8,8 +8,9 @@
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::Fitted;
-use crate::algebra::{Field, FieldElement};
+use super::waves::Ring;
+use super::{Fitted, Series};
+use crate::algebra::Field;
 use crate::coefficients::Coefficients;
 use crate::error::ErrorKind;
 use crate::hamiltonian_class::HamiltonianClass;
@@ -37,8 +38,6 @@ pub struct FittedOrders {
     /// Quadratic `T`.
     pub nystrom: FittedOrder,
 }
-
-type Series = Vec<FieldElement>;
 
 impl Fitted {
     /// The order for each class of Hamiltonians, for `h → 0` with a fixed frequency.
@@ -88,7 +87,7 @@ impl Fitted {
             power.map(|power| (vertices, power))
         };
         for weights in [&series.b, &series.b_tilde] {
-            if let found @ Some(_) = misses(self.total(weights, order), BigRational::one(), 1) {
+            if let found @ Some(_) = misses(ring.total(weights, order), BigRational::one(), 1) {
                 return found;
             }
         }
@@ -98,7 +97,7 @@ impl Fitted {
         }
         let plan = Plan::new(rule, &orders, true);
         let mut trees = Trees {
-            fitted: self,
+            ring,
             series,
             plan: &plan,
             order,
@@ -106,7 +105,9 @@ impl Fitted {
             stages: vec![None; plan.trees.len()],
         };
         for tree in &plan.trees {
-            let size = tree.product.map_or(1, |(rest, last)| trees.sizes[rest] + trees.sizes[last]);
+            let size = tree
+                .product
+                .map_or(1, |(rest, last)| trees.sizes[rest] + trees.sizes[last]);
             trees.sizes.push(size);
         }
         plan.conditions.iter().find_map(|condition| {
@@ -121,37 +122,20 @@ impl Fitted {
             let terms: Vec<Series> = weights
                 .iter()
                 .zip(rest.iter().zip(&last))
-                .map(|(b, (x, y))| self.times(b, &self.times(x, y, length), length))
+                .map(|(b, (x, y))| ring.times(b, &ring.times(x, y, length), length))
                 .collect();
-            misses(self.total(&terms, length), condition.wanted.clone(), vertices)
+            misses(
+                ring.total(&terms, length),
+                condition.wanted.clone(),
+                vertices,
+            )
         })
-    }
-
-    fn total(&self, terms: &[Series], length: usize) -> Series {
-        let zero = || self.ring.rational(BigRational::default());
-        let coefficient = |k: usize| {
-            let all = terms.iter().filter_map(|series| series.get(k));
-            all.fold(zero(), |sum, x| self.ring.field.add(&sum, x))
-        };
-        (0..length).map(coefficient).collect()
-    }
-
-    /// The product of two series, to this length.
-    pub(super) fn times(&self, x: &[FieldElement], y: &[FieldElement], length: usize) -> Series {
-        let field = &self.ring.field;
-        let zero = || self.ring.rational(BigRational::default());
-        let coefficient = |k: usize| {
-            let pairs = (0..=k).filter_map(|i| Some((x.get(i)?, y.get(k - i)?)));
-            let pairs = pairs.filter(|(x, y)| !x.is_zero() && !y.is_zero());
-            pairs.fold(zero(), |sum, (x, y)| field.add(&sum, &field.multiply(x, y)))
-        };
-        (0..length).map(coefficient).collect()
     }
 }
 
 /// The stages of trees, as series, each computed when it is first needed.
 struct Trees<'a> {
-    fitted: &'a Fitted,
+    ring: &'a Ring,
     series: &'a Coefficients<Series>,
     plan: &'a Plan,
     order: usize,
@@ -170,16 +154,16 @@ impl Trees<'_> {
         if let Some(known) = &self.stages[tree] {
             return known.clone();
         }
-        let length = self.length(tree);
+        let (ring, length) = (self.ring, self.length(tree));
         let stages = match self.plan.trees[tree].product {
             None => {
-                let one = self.fitted.ring.rational(BigRational::one());
+                let one = ring.rational(BigRational::one());
                 vec![vec![one]; self.series.b.len()]
             }
             Some((rest, last)) => {
                 let (rest, last) = (self.stages(rest), self.applied(last));
                 let pairs = rest.iter().zip(&last);
-                pairs.map(|(x, y)| self.fitted.times(x, y, length)).collect()
+                pairs.map(|(x, y)| ring.times(x, y, length)).collect()
             }
         };
         self.stages[tree] = Some(stages.clone());
@@ -188,7 +172,7 @@ impl Trees<'_> {
 
     /// `Σ_j a_ij Φ_j`
     fn applied(&mut self, tree: usize) -> Vec<Series> {
-        let length = self.length(tree);
+        let (ring, length) = (self.ring, self.length(tree));
         let stages = self.stages(tree);
         let matrix = match self.plan.trees[tree].momentum {
             true => &self.series.a_tilde,
@@ -196,9 +180,8 @@ impl Trees<'_> {
         };
         let row = |row: &Vec<Series>| {
             let products = row.iter().zip(&stages);
-            let products: Vec<Series> =
-                products.map(|(a, x)| self.fitted.times(a, x, length)).collect();
-            self.fitted.total(&products, length)
+            let products: Vec<Series> = products.map(|(a, x)| ring.times(a, x, length)).collect();
+            ring.total(&products, length)
         };
         matrix.iter().map(row).collect()
     }

@@ -63,7 +63,13 @@ impl Fitted {
         };
         let mut trace = vec![zero.clone(); LENGTH];
         for starts_at_q in [true, false] {
-            let start = |of_q: bool| if of_q == starts_at_q { one.clone() } else { zero.clone() };
+            let start = |of_q: bool| {
+                if of_q == starts_at_q {
+                    one.clone()
+                } else {
+                    zero.clone()
+                }
+            };
             let stages = self.stages();
             let mut q: Vec<Vec<FieldElement>> = vec![vec![start(true)]; stages];
             let mut p: Vec<Vec<FieldElement>> = vec![vec![start(false)]; stages];
@@ -88,12 +94,16 @@ impl Fitted {
             }
         }
         let half = self.ring.rational(ratio(1, 2));
-        let cosine = self.ring.wave(0, one, false, self.ring.rational(BigRational::one()));
+        let cosine = self
+            .ring
+            .wave(0, one, false, self.ring.rational(BigRational::one()));
         let length = i32::try_from(LENGTH).unwrap_or(i32::MAX);
         let cosine = self.ring.expansion(&cosine, 0, length);
-        let mut differences = trace.iter().zip(&cosine).enumerate().map(|(power, (x, y))| {
-            (power, field.subtract(&field.multiply(&half, x), y))
-        });
+        let mut differences = trace
+            .iter()
+            .zip(&cosine)
+            .enumerate()
+            .map(|(power, (x, y))| (power, field.subtract(&field.multiply(&half, x), y)));
         let leading = differences.find(|(_, x)| !x.is_zero());
         Ok(match leading {
             Some((power, coefficient)) => PhaseError::Leading { power, coefficient },

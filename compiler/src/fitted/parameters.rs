@@ -21,9 +21,9 @@ impl Definition {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn at(&self, values: &[(&str, &str)]) -> Result<Definition, Error> {
-        let names: Vec<&str> = self.get(Key::Parameters).map_or_else(Vec::new, |text| {
-            text.split(',').map(str::trim).collect()
-        });
+        let names: Vec<&str> = self
+            .get(Key::Parameters)
+            .map_or_else(Vec::new, |text| text.split(',').map(str::trim).collect());
         for (name, value) in values {
             if !names.contains(name) {
                 let known = match names.as_slice() {
@@ -38,7 +38,9 @@ impl Definition {
             };
             let items = parse_list(input)?;
             let [item] = items.as_slice() else {
-                return Err(refused(format!("`{name}` takes one number, and not `{value}`")));
+                return Err(refused(format!(
+                    "`{name}` takes one number, and not `{value}`"
+                )));
             };
             item.constant(input)?;
         }
@@ -51,7 +53,9 @@ impl Definition {
             }
         }
         let parts = self.parts().filter(|(key, _)| *key != Key::Parameters);
-        Ok(Definition::new(parts.map(|(key, text)| (key, replaced(text, values)))))
+        Ok(Definition::new(
+            parts.map(|(key, text)| (key, replaced(text, values))),
+        ))
     }
 }
 

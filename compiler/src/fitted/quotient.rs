@@ -1,5 +1,7 @@
 //! Quotients of sums of waves, and their power series in `ν`.
 
+use num_rational::BigRational;
+
 use crate::algebra::{Field, FieldElement};
 use crate::error::ErrorKind;
 use crate::fitted::waves::{Ring, Waves};
@@ -21,7 +23,7 @@ impl Ring {
     pub fn quotient(&self, numerator: Waves, denominator: Waves) -> Quotient {
         let lowest = [&numerator, &denominator].into_iter();
         let lowest = lowest.filter_map(Waves::lowest_power).min().unwrap_or(0);
-        let shift = self.rational(num_rational::BigRational::from_integer(1.into()));
+        let shift = self.rational(BigRational::from_integer(1.into()));
         let [numerator, denominator] =
             [&numerator, &denominator].map(|x| self.scale(x, &shift, -lowest));
         // A multiple of the denominator is a number.
@@ -30,7 +32,7 @@ impl Ring {
             Some(self.field.multiply(x, &self.field.inverse(y)?))
         });
         let number = match (&ratio, numerator.is_zero()) {
-            (_, true) => Some(self.rational(num_rational::BigRational::default())),
+            (_, true) => Some(self.rational(BigRational::default())),
             (Some(ratio), false) => self
                 .subtract(&numerator, &self.scale(&denominator, ratio, 0))
                 .is_zero()
@@ -56,30 +58,12 @@ impl Ring {
         self.subtract(&left, &right).is_zero()
     }
 
-    /// The sum.
-    pub fn sum(&self, x: &Quotient, y: &Quotient) -> Quotient {
-        if x.denominator == y.denominator {
-            let numerator = self.add(&x.numerator, &y.numerator);
-            return self.quotient(numerator, x.denominator.clone());
-        }
-        let left = self.multiply(&x.numerator, &y.denominator);
-        let right = self.multiply(&y.numerator, &x.denominator);
-        let denominator = self.multiply(&x.denominator, &y.denominator);
-        self.quotient(self.add(&left, &right), denominator)
-    }
-
-    /// The product.
-    pub fn product(&self, x: &Quotient, y: &Quotient) -> Quotient {
-        let numerator = self.multiply(&x.numerator, &y.numerator);
-        self.quotient(numerator, self.multiply(&x.denominator, &y.denominator))
-    }
-
     /// The first coefficients of the power series in `ν`.
     ///
     /// # Errors
     /// [`ErrorKind::Definition`] if the function has no limit at `ν = 0`.
     pub fn series(&self, x: &Quotient, length: usize) -> Result<Vec<FieldElement>, ErrorKind> {
-        let length = i32::try_from(length).unwrap_or(i32::MAX);
+        let terms = i32::try_from(length).unwrap_or(DEEPEST);
         let low = self.expansion(&x.denominator, 0, DEEPEST);
         let valuation = low.iter().position(|c| !c.is_zero());
         let valuation = valuation.and_then(|v| i32::try_from(v).ok());
@@ -93,19 +77,65 @@ impl Ring {
         {
             return Err(no_limit());
         }
-        let numerator = self.expansion(&x.numerator, valuation, valuation + length);
-        let denominator = self.expansion(&x.denominator, valuation, valuation + length);
-        let inverse = denominator.first().and_then(|c| self.field.inverse(c));
+        let numerator = self.expansion(&x.numerator, valuation, valuation + terms);
+        let denominator = self.expansion(&x.denominator, valuation, valuation + terms);
+        self.divide(&numerator, &denominator, length)
+    }
+
+    /// The quotient of two power series, to this length.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Definition`] if the divisor is 0 at `ν = 0`.
+    pub fn divide(
+        &self,
+        x: &[FieldElement],
+        y: &[FieldElement],
+        length: usize,
+    ) -> Result<Vec<FieldElement>, ErrorKind> {
+        let inverse = y.first().and_then(|c| self.field.inverse(c));
         let inverse = inverse.ok_or_else(no_limit)?;
         let mut series: Vec<FieldElement> = Vec::new();
-        for (k, coefficient) in numerator.iter().enumerate() {
-            let known = series.iter().zip(denominator[1..=k].iter().rev());
+        for (k, coefficient) in x.iter().enumerate().take(length) {
+            let known = series.iter().enumerate();
+            let known = known.filter_map(|(i, s)| Some((s, y.get(k - i)?)));
             let rest = known.fold(coefficient.clone(), |rest, (s, d)| {
+                if s.is_zero() || d.is_zero() {
+                    return rest;
+                }
                 self.field.subtract(&rest, &self.field.multiply(s, d))
             });
             series.push(self.field.multiply(&rest, &inverse));
         }
         Ok(series)
+    }
+
+    /// The product of two power series, to this length.
+    pub fn times(
+        &self,
+        x: &[FieldElement],
+        y: &[FieldElement],
+        length: usize,
+    ) -> Vec<FieldElement> {
+        let coefficient = |k: usize| {
+            let pairs = (0..=k).filter_map(|i| Some((x.get(i)?, y.get(k - i)?)));
+            let pairs = pairs.filter(|(x, y)| !x.is_zero() && !y.is_zero());
+            let products = pairs.map(|(x, y)| self.field.multiply(x, y));
+            products.fold(self.rational(BigRational::default()), |sum, product| {
+                self.field.add(&sum, &product)
+            })
+        };
+        (0..length).map(coefficient).collect()
+    }
+
+    /// The sum of power series, to this length.
+    pub fn total(&self, terms: &[Vec<FieldElement>], length: usize) -> Vec<FieldElement> {
+        let coefficient = |k: usize| {
+            let all = terms.iter().filter_map(|series| series.get(k));
+            all.fold(self.rational(BigRational::default()), |sum, x| {
+                self.field.add(&sum, x)
+            })
+        };
+        (0..length).map(coefficient).collect()
     }
 
     /// The quotient as text, with this name for `ν`.

@@ -64,7 +64,8 @@ pub fn basis(text: &str, parameter: &str, ring: &Ring) -> Result<Vec<(String, Wa
         Ok((text.to_owned(), reader.function(item)?))
     };
     let functions: Vec<(String, Waves)> = items.iter().map(read).collect::<Result<_, Error>>()?;
-    let is_polynomial = |(_, f): &(String, Waves)| f.terms().all(|(wave, _)| wave.frequency.is_zero());
+    let is_polynomial =
+        |(_, f): &(String, Waves)| f.terms().all(|(wave, _)| wave.frequency.is_zero());
     if functions.iter().all(is_polynomial) {
         let message = format!(
             "the parameter `{parameter}` is in none of the functions: write cos({parameter}*t), sin({parameter}*t), or leave out `parameters`"
@@ -115,7 +116,9 @@ impl Reader<'_> {
                 match operator {
                     Operator::Add => Ok(ring.add(&f, &self.function(right)?)),
                     Operator::Subtract => Ok(ring.subtract(&f, &self.function(right)?)),
-                    Operator::Multiply => self.bounded(expression, ring.multiply(&f, &self.function(right)?)),
+                    Operator::Multiply => {
+                        self.bounded(expression, ring.multiply(&f, &self.function(right)?))
+                    }
                     Operator::Divide => {
                         let divisor = number()?;
                         if divisor == BigRational::default() {
@@ -125,7 +128,9 @@ impl Reader<'_> {
                     }
                     Operator::Power => {
                         let exponent = number()?;
-                        let exponent = exponent.is_integer().then(|| exponent.to_integer().to_u32());
+                        let exponent = exponent
+                            .is_integer()
+                            .then(|| exponent.to_integer().to_u32());
                         let exponent = exponent.flatten().filter(|&n| n <= LARGEST_POWER);
                         let exponent = exponent.ok_or_else(|| self.unsupported(expression))?;
                         let mut power = ring.one();

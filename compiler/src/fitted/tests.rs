@@ -29,7 +29,7 @@ fn weights_of_three_nodes_have_their_closed_form() {
     let numerator = ring.subtract(&ring.one(), &wave(-1, 1, 2, true, 2));
     let denominator = ring.add(&wave(0, 0, 1, false, 2), &wave(0, 1, 2, false, -2));
     let expected = ring.quotient(numerator, denominator);
-    let weights = method.coefficients().b;
+    let (_, weights) = method.constructed();
     assert!(ring.equal(&weights[0], &expected));
     assert!(ring.equal(&weights[2], &expected));
     assert!(!ring.equal(&weights[1], &expected));
@@ -41,14 +41,16 @@ fn orders_are_those_of_the_polynomial_method_at_the_same_nodes() {
         let method = fitted(text);
         let orders = method.orders().expect(text);
         assert_eq!(orders.general.order, order, "{text}");
-        assert_eq!(orders.general.violated.map(|(vertices, _)| vertices > 0), Some(true));
+        assert_eq!(
+            orders.general.violated.map(|(vertices, _)| vertices > 0),
+            Some(true)
+        );
         assert!(method.is_symmetric(), "{text}");
     }
     assert!(fitted(LOBATTO_3).is_consistent());
     assert!(!fitted(GAUSS_2).is_consistent());
 }
 
-/// The fixed basis cos(t), sin(t) has a lower order: its coefficients do not change with the step.
 #[test]
 fn limits_are_the_polynomial_methods() {
     let method = fitted(GAUSS_2);
@@ -58,7 +60,6 @@ fn limits_are_the_polynomial_methods() {
     for (row, known) in series.a.iter().zip(&gauss.a) {
         for (x, known) in row.iter().zip(known) {
             assert_eq!(method.number(&x[0]).to_f64(), *known);
-            assert!(x[1].is_zero() || !x[1].is_zero());
         }
     }
 }
@@ -86,29 +87,52 @@ fn the_span_on_which_momenta_are_exact_is_decided() {
     assert_eq!(exact.velocities, [0, 1, 2]);
     assert_eq!(exact.step, [0, 1, 2]);
     assert_eq!(exact.forces, Vec::<usize>::new());
-    // Simpson's partner integrates constants at Gauss nodes, where the quadrature is exact on 2t and on t·cos.
-    let midpoint = fitted("parameters: w, basis: cos(w*t), nodes: 1/2");
-    assert_eq!(midpoint.exact_on().velocities, [0]);
     let exchanged = fitted(&format!("{LOBATTO_3}, exchange: true")).exact_on();
     assert_eq!(exchanged.forces, [0, 1, 2]);
 }
 
 #[test]
 fn the_phase_error_at_the_frequency_is_found() {
-    for text in [LOBATTO_3, GAUSS_2, GAUSS_3] {
-        println!("{text} {:?}", fitted(text).phase_error());
+    for (text, known) in [
+        (LOBATTO_3, (6, ratio(-1, 576))),
+        (GAUSS_2, (8, ratio(-1, 13_824))),
+        (GAUSS_3, (10, ratio(-1, 3_600_000))),
+    ] {
+        let method = fitted(text);
+        let (power, value) = known;
+        let coefficient = method.ring().rational(value);
+        let known = PhaseError::Leading { power, coefficient };
+        assert_eq!(method.phase_error(), Ok(known), "{text}");
     }
 }
 
 #[test]
 fn what_cannot_be_fitted_is_refused_with_the_reason() {
     let cases = [
-        ("parameters: w, basis: [1, exp(w*t)], nodes: [0, 1]", "`exp(w*t)` is not supported"),
-        ("parameters: w, basis: [1, t], nodes: [0, 1]", "the parameter `w` is in none"),
-        ("parameters: t, basis: [1, t], nodes: [0, 1]", "the name of a frequency"),
-        ("parameters: [v, w], basis: [1, t], nodes: [0, 1]", "one frequency"),
-        ("parameters: w, basis: [cos(w*t), sin(w*t)], nodes: [0, 1/2, 1]", "2 "),
-        ("parameters: w, basis: [cos(w*t), 2*cos(w*t)], nodes: [0, 1]", "vanishes at all nodes"),
+        (
+            "parameters: w, basis: [1, exp(w*t)], nodes: [0, 1]",
+            "`exp(w*t)` is not supported",
+        ),
+        (
+            "parameters: w, basis: [1, t], nodes: [0, 1]",
+            "the parameter `w` is in none",
+        ),
+        (
+            "parameters: t, basis: [1, t], nodes: [0, 1]",
+            "the name of a frequency",
+        ),
+        (
+            "parameters: [v, w], basis: [1, t], nodes: [0, 1]",
+            "one frequency",
+        ),
+        (
+            "parameters: w, basis: [cos(w*t), sin(w*t)], nodes: [0, 1/2, 1]",
+            "2 ",
+        ),
+        (
+            "parameters: w, basis: [cos(w*t), 2*cos(w*t)], nodes: [0, 1]",
+            "vanishes at all nodes",
+        ),
         ("parameters: w, kick: [1], drift: [1]", "leave out `kick`"),
     ];
     for (text, message) in cases {

@@ -220,7 +220,13 @@ impl Ring {
     }
 
     /// `∫_0^c tᵏ cos(φνt) dt`, or with the sine, as a function of `ν`.
-    pub fn integral(&self, c: &FieldElement, power: u32, frequency: &FieldElement, sine: bool) -> Waves {
+    pub fn integral(
+        &self,
+        c: &FieldElement,
+        power: u32,
+        frequency: &FieldElement,
+        sine: bool,
+    ) -> Waves {
         let whole = |n: u32| self.rational(BigRational::from_integer(n.into()));
         let end = self.power(c, power);
         let Some(inverse) = self.field.inverse(frequency) else {
@@ -228,7 +234,10 @@ impl Ring {
                 return Waves::default();
             }
             let value = self.field.multiply(&end, c);
-            let divided = self.field.multiply(&value, &self.rational(BigRational::new(1.into(), (power + 1).into())));
+            let divided = self.field.multiply(
+                &value,
+                &self.rational(BigRational::new(1.into(), (power + 1).into())),
+            );
             return self.constant(divided);
         };
         // By parts: [tᵏ sin(at)]/a − (k/a)∫tᵏ⁻¹ sin(at), and −[tᵏ cos(at)]/a + (k/a)∫tᵏ⁻¹ cos(at), with a = φν.
@@ -241,7 +250,9 @@ impl Ring {
         let mut integral = self.scale(&ends, &self.field.multiply(&sign, &inverse), -1);
         if power > 0 {
             let rest = self.integral(c, power - 1, frequency, !sine);
-            let factor = self.field.multiply(&whole(power), &self.field.multiply(&sign, &inverse));
+            let factor = self
+                .field
+                .multiply(&whole(power), &self.field.multiply(&sign, &inverse));
             integral = self.subtract(&integral, &self.scale(&rest, &factor, -1));
         }
         integral
@@ -271,7 +282,9 @@ impl Ring {
                     *entry = self.field.add(entry, &term);
                 }
                 let next = i64::from((exponent + 1) * (exponent + 2));
-                let factor = self.field.multiply(&square, &self.rational(ratio(-1, next)));
+                let factor = self
+                    .field
+                    .multiply(&square, &self.rational(ratio(-1, next)));
                 term = self.field.multiply(&term, &factor);
                 exponent += 2;
             }
@@ -304,7 +317,11 @@ impl Ring {
             };
             text.push_str(&format!("{sign}{product}"));
         }
-        if text.is_empty() { "0".to_owned() } else { text }
+        if text.is_empty() {
+            "0".to_owned()
+        } else {
+            text
+        }
     }
 
     fn factors(&self, wave: &Wave, name: &str) -> String {
