@@ -47,6 +47,9 @@ macro_rules! keys {
 }
 
 keys! {
+    /// The name of a frequency in the basis, `w`: the coefficients are then functions of it. See [`Fitted`](crate::Fitted).
+    Parameters = "parameters", Some("NAME"),
+        "A frequency in the functions of the basis, such as w in \"1, cos(w*t), sin(w*t)\": the coefficients are functions of it";
     /// The functions in which velocities are approximated: `polynomial(3)`, `1, cos(pi*t), sin(pi*t)`.
     Basis = "basis", Some("BASIS"),
         "`polynomial(s)`, `legendre(s)`, or a list of functions of t: \"1, cos(pi*t), sin(pi*t)\"";
@@ -135,6 +138,7 @@ impl Key {
 /// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
 /// | `base`, `weights`, `claim`, perhaps `symmetric` | the exact composition behind printed weights, certified |
 /// | either of these with `processor` | `P ∘ K ∘ P⁻¹` with that method as the kernel K |
+/// | `parameters`, `basis`, `nodes` | square, with coefficients that are functions of a frequency: [`Fitted`](crate::Fitted) |
 /// | `compose` | `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}` (MW 2.5): a list of `[γ_k, definition of Φ_k]`, the first step first |
 ///
 /// Each may have `exchange: true` and `adjoint: true`. Every value is text in the grammar of

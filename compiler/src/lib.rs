@@ -14,6 +14,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a tableau is derived from | [`Definition`], of [`symbolic`] functions and constants |
+//! | methods whose coefficients are functions of a frequency | [`Fitted`] |
 //! | bases, nodes and weights | [`Basis`], [`Nodes`], [`QuadratureRule`], [`FAMILIES`] |
 //! | the derivation | [`derive()`], [`Definition::derive`], [`derive_from`] |
 //! | the exact coefficients | [`Tableau`], in an [`algebra`] of one of three [`Tier`]s |
@@ -50,6 +51,7 @@ mod evidence;
 mod exact;
 pub mod export;
 pub mod expression;
+pub mod fitted;
 mod hamiltonian_class;
 #[doc(hidden)]
 pub mod inside;
@@ -73,6 +75,7 @@ pub use coefficients::Coefficients;
 pub use definition::{Definition, Key};
 pub use evidence::Evidence;
 pub use exact::Tier;
+pub use fitted::Fitted;
 pub use library::{Library, Stepping};
 pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};

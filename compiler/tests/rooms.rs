@@ -21,7 +21,7 @@ const LEVELS: &[&[&str]] = &[
     &["schedule", "stability"],
     &["properties"],
     &["order"],
-    &["derive"],
+    &["derive", "fitted"],
     &["tableau"],
     &["efficiency", "operations", "requirement"],
     &["export"],

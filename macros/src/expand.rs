@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
-use symplectic_compiler::emit::{Header, method};
+use symplectic_compiler::emit::{Header, fitted_method, method};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::{Key, Limits, Requirement, Tableau, check, did_you_mean};
+use symplectic_compiler::{Fitted, Key, Limits, Requirement, Tableau, check, did_you_mean};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
@@ -82,6 +82,20 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
     let accepted = field("accept").map_or(Ok(None), |field| accepted(field).map(Some));
     let accepted = errors.note(accepted).flatten();
 
+    if complete && form == Form::Tableau && field(Key::Parameters.name()).is_some() {
+        if let Some(other) = ["file", "require", "accept"]
+            .iter()
+            .find_map(|name| field(name))
+        {
+            let message = format!(
+                "`{}` does not go with `parameters`: what is proved about such a method is in its documentation and in `symplectic derive`",
+                other.key
+            );
+            errors.note::<()>(Err(syn::Error::new(other.key.span(), message)));
+        }
+        let code = errors.note(fitted(definition, form, &limits));
+        return errors.0.map_or_else(|| Ok(code.unwrap_or_default()), Err);
+    }
     let mut rebuild = TokenStream::new();
     let is_part = |field: &&Field| Key::find(&field.key.to_string()).is_some();
     let parts: Vec<String> = definition
@@ -204,8 +218,34 @@ fn wrong_digits(tableau: &Tableau, definition: &Definition) -> TokenStream {
     tableau.wrong_digits().iter().map(warning).collect()
 }
 
+/// The code of a method whose coefficients are functions of its parameter.
+fn fitted(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<TokenStream> {
+    let fitted = from_parts(definition, form, |defined| {
+        Fitted::derive(defined, limits).map_err(|error| vec![error])
+    })?;
+    let attributes = &definition.attributes;
+    let header = Header {
+        attributes: quote!(#(#attributes)*),
+        visibility: definition.visibility.to_token_stream(),
+        name: definition.name.clone(),
+    };
+    fitted_method(&fitted, &header)
+        .map_err(|kind| syn::Error::new(definition.name.span(), kind.to_string()))
+}
+
 /// Derives the tableau from the parts of a definition, with errors at the tokens of each part.
 fn derive(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<Tableau> {
+    from_parts(definition, form, |defined| {
+        defined.derive_or_all_errors(limits)
+    })
+}
+
+/// What is derived from the parts of a definition, with errors at the tokens of each part.
+fn from_parts<T>(
+    definition: &Definition,
+    form: Form,
+    derived: impl FnOnce(&symplectic_compiler::Definition) -> Result<T, Vec<symplectic_compiler::Error>>,
+) -> syn::Result<T> {
     let parts: Vec<(Key, Source)> = definition
         .fields
         .iter()
@@ -218,7 +258,7 @@ fn derive(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<T
         .collect();
     let texts = parts.iter().map(|(key, source)| (*key, &*source.text));
     let defined = symplectic_compiler::Definition::new(texts);
-    defined.derive_or_all_errors(limits).map_err(|all| {
+    derived(&defined).map_err(|all| {
         let located = all.iter().map(|error| {
             let about = error.place.as_ref().map(|place| &*place.input);
             let part = parts.iter().find(|(key, _)| Some(key.name()) == about);

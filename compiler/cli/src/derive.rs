@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use symplectic_compiler::{Definition, Error, Key, check, export};
+use symplectic_compiler::{Definition, Error, ErrorKind, Fitted, Key, check, export};
 use symplectic_terminal::print;
 
 use crate::output::{self, OutputOptions};
@@ -21,6 +21,14 @@ pub(crate) struct Arguments {
     file: Option<PathBuf>,
     #[command(flatten)]
     definition: Parts,
+    /// A number for a parameter: `--at w=3`. Without it, the coefficients are functions of the parameter.
+    #[arg(
+        long,
+        value_name = "NAME=NUMBER",
+        conflicts_with = "file",
+        allow_hyphen_values = true
+    )]
+    at: Vec<String>,
     /// Name for the output.
     #[arg(long)]
     name: Option<String>,
@@ -36,7 +44,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             &export::read_text(path)?,
             &limits,
         )?,
-        None => arguments.definition.0.derive(&limits)?,
+        None => match arguments.at.as_slice() {
+            [] if arguments.definition.0.get(Key::Parameters).is_some() => {
+                return fitted(arguments);
+            }
+            [] => arguments.definition.0.derive(&limits)?,
+            at => at_numbers(&arguments.definition.0, at)?.derive(&limits)?,
+        },
     };
     if let Some(name) = &arguments.name {
         tableau = tableau.named(name);
@@ -44,6 +58,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     output::warn_if_inconsistent(&tableau);
     output::warn_of_wrong_digits(&tableau);
     print(&arguments.output.write(&tableau)?)
+}
+
+/// Derives and prints a method whose coefficients are functions of its parameter.
+fn fitted(arguments: &Arguments) -> Result<ExitCode, Error> {
+    let mut fitted = Fitted::derive(&arguments.definition.0, &arguments.output.limits())?;
+    if let Some(name) = &arguments.name {
+        fitted = fitted.named(name);
+    }
+    print(&arguments.output.write_fitted(&fitted)?)
+}
+
+/// The definition with the numbers of `--at w=3`.
+fn at_numbers(definition: &Definition, at: &[String]) -> Result<Definition, Error> {
+    let pairs = at.iter().map(|text| {
+        text.split_once('=').ok_or_else(|| {
+            let message =
+                format!("`--at {text}`: expected a name and a number, such as `--at w=3`");
+            Error::from(ErrorKind::Definition { message })
+        })
+    });
+    definition.at(&pairs.collect::<Result<Vec<_>, _>>()?)
 }
 
 /// The parts of a definition, one option per [`Key`].

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use symplectic_compiler::catalogue::Entry;
 use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
 use symplectic_compiler::order::ClassOrder;
-use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
+use symplectic_compiler::{Error, ErrorKind, Fitted, Limits, Tableau};
 
 use symplectic_terminal::errors;
 use symplectic_tools::Language;
@@ -79,6 +79,29 @@ impl OutputOptions {
         match self.max_stages {
             None => entry.limits(),
             given => limits(given),
+        }
+    }
+
+    /// Writes a method whose coefficients are functions of a frequency.
+    ///
+    /// # Errors
+    /// Formats other than text and JSON; `--digits`; coefficients without a limit.
+    pub(crate) fn write_fitted(&self, fitted: &Fitted) -> Result<String, Error> {
+        let w = fitted.parameter();
+        let refused = |what: &str| -> Error {
+            let message = format!(
+                "{what} needs numbers, and with `parameters` the coefficients are functions of `{w}`: give it a number, as by \
+                 `--at {w}=3`, or take `--format text` or `json`"
+            );
+            ErrorKind::Definition { message }.into()
+        };
+        if self.digits.is_some() {
+            return Err(refused("`--digits`"));
+        }
+        match self.format {
+            Format::Text => Ok(export::fitted::text(fitted)?),
+            Format::Json => Ok(export::fitted::json(fitted)?),
+            _ => Err(refused("this format")),
         }
     }
 

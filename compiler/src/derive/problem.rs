@@ -168,6 +168,12 @@ impl Problem {
             .note(switch(definition, Key::Adjoint))
             .unwrap_or_default();
         let kind = Kind::of(definition);
+        if let Some(name) = definition.get(Key::Parameters) {
+            errors.push(misfit_at(definition, Key::Parameters, format!(
+                "with `parameters` the coefficients are functions of `{name}`, and this needs numbers: give the parameter a number, as by `--at {name}=3`"
+            )));
+            return Err(errors.0);
+        }
         if let Some((key, _)) = definition.parts().find(|&(key, _)| !kind.takes(key)) {
             errors.push(misfit(kind.refuses(key)));
         }

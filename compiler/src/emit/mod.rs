@@ -10,6 +10,7 @@
 mod constrained;
 mod dense_output;
 mod facts;
+mod fitted;
 mod literal;
 mod nonholonomic;
 mod nystrom;
@@ -22,6 +23,7 @@ pub use self::constrained::{
 };
 pub use self::symplectic_rounding::Rounded;
 pub use facts::Known;
+pub use fitted::fitted_method;
 pub use symplectic_exact::code::Header;
 pub use symplectic_rounding::Relative;
 

@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | text | [`text::write`] | | exact entries where short, decimals otherwise, the properties |
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
+//! | text and JSON of functions of a frequency | [`fitted::text`], [`fitted::json`] | | methods with `parameters` |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 
 use crate::coefficients::Coefficients;
@@ -14,6 +15,7 @@ pub mod columns;
 mod encoding;
 mod entries;
 mod facts;
+pub mod fitted;
 mod format;
 pub mod json;
 mod provenance;

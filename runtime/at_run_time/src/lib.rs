@@ -9,11 +9,14 @@ extern crate alloc;
 mod coefficients;
 mod decoupling;
 mod error;
+mod fitted;
 mod plan;
 mod rows;
 mod schedule;
 mod tableau;
+mod wide;
 
 pub use coefficients::RunTimeCoefficients;
 pub use error::TableauError;
+pub use fitted::{FittedCoefficients, FittedEntry, FittedTerm};
 pub use tableau::RunTimeTableau;

@@ -10,7 +10,7 @@ use symplectic_core::system::{Class, Frictionless};
 use symplectic_core::{Error, General, Method, Orders, ProvedFor, Separable, System, Vector};
 
 use crate::coefficients::RunTimeCoefficients;
-use crate::error::{self, TableauError};
+use crate::error::{self, TableauError, Weights};
 use crate::plan::{RunTimeMemory, RunTimePlan};
 use crate::rows::RunTimeRows;
 use crate::schedule::Schedule;
@@ -123,19 +123,33 @@ impl RunTimeTableau {
         coefficients: &RunTimeCoefficients,
         orders: Orders,
     ) -> Result<Self, TableauError> {
-        error::check(coefficients)?;
-        Ok(Self {
+        error::check(coefficients, Weights::SumToOne)?;
+        Ok(Self::checked(name, coefficients.clone(), orders))
+    }
+
+    /// The method with coefficients that are fitted to a frequency, whose weights need not sum to 1.
+    pub(crate) fn fitted(
+        name: &str,
+        coefficients: RunTimeCoefficients,
+        orders: Orders,
+    ) -> Result<Self, TableauError> {
+        error::check(&coefficients, Weights::Fitted)?;
+        Ok(Self::checked(name, coefficients, orders))
+    }
+
+    fn checked(name: &str, coefficients: RunTimeCoefficients, orders: Orders) -> Self {
+        Self {
             data: Arc::new(Data {
                 name: name.to_string(),
                 orders,
-                coefficients: coefficients.clone(),
-                separable: Schedule::new(coefficients, true),
-                general: Schedule::new(coefficients, false),
+                separable: Schedule::new(&coefficients, true),
+                general: Schedule::new(&coefficients, false),
+                coefficients,
             }),
             accepts_lower_order: false,
             holonomic: &[],
             nonholonomic: &[],
-        })
+        }
     }
 
     /// The same method for every system, even if its order is lower or it is not symplectic.
