@@ -42,6 +42,9 @@ struct Arguments {
     /// The structure.
     #[arg(long, value_enum, default_value_t = Shape::Aba)]
     structure: Shape,
+    /// The number of fractions of the processor, for `--structure processed`.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..=20))]
+    processor: u16,
     /// What is minimised [default: error; cost where the next order is in reach; perturbed for `--class perturbed`].
     #[arg(long, value_enum)]
     minimise: Option<Figure>,
@@ -103,6 +106,8 @@ enum Shape {
     Plain,
     /// A palindrome of steps of Störmer–Verlet: its order holds for every symmetric basic method.
     Composition,
+    /// The same as the kernel of a processed method, P K P⁻¹.
+    Processed,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -127,6 +132,9 @@ impl Arguments {
             Shape::Bab => Structure::Bab,
             Shape::Plain => Structure::Plain,
             Shape::Composition => Structure::Composition,
+            Shape::Processed => Structure::Processed {
+                processor: usize::from(self.processor),
+            },
         };
         let [first, rest @ ..] = &*self.order else {
             return Err(refused("`--order` needs a number".to_owned()));
@@ -138,8 +146,10 @@ impl Arguments {
             ));
         }
         let claim = match (structure, self.class) {
-            (Structure::Composition, Class::Separable) => Claim::SymmetricBase(*first),
-            (Structure::Composition, _) => {
+            (Structure::Composition | Structure::Processed { .. }, Class::Separable) => {
+                Claim::SymmetricBase(*first)
+            }
+            (Structure::Composition | Structure::Processed { .. }, _) => {
                 let message =
                     "compositions have the same conditions for every class: leave out `--class`";
                 return Err(refused(message.to_owned()));

@@ -183,7 +183,7 @@ pub(crate) fn method(
     format!(
         "{number}. Proved: order {}{perturbed}; {}symplectic; {free}.\n   Error constant {:.6e}, efficiency {:.4}; largest coefficient {:.3}; stable for hω in {}.\n   {}\n\n",
         orders.join(", "),
-        if problem.structure.is_symmetric() {
+        if method.tableau.separable_properties().symmetric.holds {
             "symmetric, "
         } else {
             ""

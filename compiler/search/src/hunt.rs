@@ -173,16 +173,23 @@ impl Problem {
 
     pub(crate) fn manifold(&self) -> Result<Manifold, CertifyError> {
         let (class, order) = self.compared_in();
+        let model = Model::new(self.structure, self.kicks);
         let conditions = Conditions::new(&self.claim, self.structure.is_symmetric())?;
+        let mut equations = vec![(Polynomials::new(&conditions), model.steps.clone())];
+        if let Some(processor) = &model.processor {
+            // P(h) = Q(h) Q(−h) is even up to the degree that the order needs, if these words vanish in Q.
+            let degree = 2 * order.saturating_sub(7).div_ceil(2) + 1;
+            let words = Conditions::new(&Claim::SymmetricBase(degree), true)?;
+            equations.push((Polynomials::vanishing(&words), processor.clone()));
+        }
+        if self.dispersion {
+            equations.push((dispersion(class, order)?, model.letters.clone()));
+        }
         Ok(Manifold {
-            model: Model::new(self.structure, self.kicks),
-            conditions: Polynomials::new(&conditions),
-            dispersion: match self.dispersion {
-                true => Some(dispersion(class, order)?),
-                false => None,
-            },
+            equations,
             figure: Figure::new(class, order, self.step(), self.norm)?,
             largest: self.largest,
+            model,
         })
     }
 
@@ -220,7 +227,11 @@ impl Problem {
         mut report: impl FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<(), CertifyError> {
         let manifold = self.manifold()?;
-        progress.conditions = manifold.conditions.len();
+        progress.conditions = manifold
+            .equations
+            .iter()
+            .map(|(polynomials, _)| polynomials.len())
+            .sum();
         progress.unknowns = manifold.model.unknowns();
         while progress.starts < starts {
             let batch = progress.starts..(progress.starts + BATCH).min(starts);

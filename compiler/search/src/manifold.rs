@@ -4,15 +4,14 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::figure::Figure;
 use crate::polynomials::Polynomials;
-use crate::structure::Model;
+use crate::structure::{Model, Product};
 
 /// The problem of a search in doubles.
 #[derive(Debug, Clone)]
 pub(crate) struct Manifold {
     pub(crate) model: Model,
-    pub(crate) conditions: Polynomials,
-    /// The error of the frequency of the harmonic oscillator, where it has to vanish.
-    pub(crate) dispersion: Option<Polynomials>,
+    /// The equations, each with the product that they are about; first the order conditions.
+    pub(crate) equations: Vec<(Polynomials, Product)>,
     pub(crate) figure: Figure,
     /// The largest size of an unknown; beyond it the figure is penalised.
     pub(crate) largest: f64,
@@ -46,15 +45,23 @@ const PENALTY: f64 = 300.0;
 impl Manifold {
     /// The residuals of all equations, and their derivatives.
     pub(crate) fn constraints(&self, unknowns: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
-        let (mut values, mut slopes) = self.conditions.derivatives(&self.model.steps, unknowns);
-        if let Some(dispersion) = &self.dispersion {
-            let (value, slope) = dispersion.derivatives(&self.model.letters, unknowns);
-            let last = values.len();
-            values = values.insert_row(last, value[0]);
-            slopes = slopes.insert_row(last, 0.0);
-            slopes.row_mut(last).copy_from(&slope.row(0));
+        let found: Vec<_> = self
+            .equations
+            .iter()
+            .map(|(polynomials, product)| polynomials.derivatives(product, unknowns))
+            .collect();
+        if let [(values, slopes)] = &*found {
+            return (values.clone(), slopes.clone());
         }
-        (values, slopes)
+        let values = found.iter().flat_map(|(values, _)| values.iter().copied());
+        let rows: Vec<_> = found
+            .iter()
+            .flat_map(|(_, slopes)| slopes.row_iter())
+            .collect();
+        (
+            DVector::from_vec(values.collect()),
+            DMatrix::from_rows(&rows),
+        )
     }
 
     /// The nearest solution of the conditions, by steps of least norm.

@@ -33,6 +33,13 @@ impl Polynomials {
         }
     }
 
+    /// The same forms, which are to vanish.
+    pub(crate) fn vanishing(conditions: &Conditions) -> Self {
+        let mut found = Polynomials::new(conditions);
+        found.wanted.fill(0.0);
+        found
+    }
+
     /// The values of the forms of conditions for a combination of words.
     pub(crate) fn coordinates(
         &self,

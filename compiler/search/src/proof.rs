@@ -6,8 +6,8 @@
 use nalgebra::DVector;
 use symplectic_compiler::arithmetic::rounding::{Decimal, exact};
 use symplectic_compiler::certify::{
-    Certificate, CertifyError, Claim, Coefficient, KICK, Printed, Splitting, certify,
-    certify_composition,
+    Certificate, CertifyError, Claim, Coefficient, KICK, Printed, Processor, Splitting, certify,
+    certify_composition, certify_processed,
 };
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Definition, Error, Key, Limits, Tableau};
@@ -96,6 +96,11 @@ impl Problem {
                 .iter()
                 .map(|&unknown| printed[unknown].clone())
                 .collect();
+            if matches!(self.structure, Structure::Processed { .. }) {
+                let kernel = weights.len().div_ceil(2);
+                let processor = Processor::BackAndForth(printed[kernel..].to_vec());
+                return certify_processed(&weights, &processor, order);
+            }
             return certify_composition(&weights, order);
         }
         let (mut kick, mut drift): (Vec<Printed>, Vec<Printed>) = (Vec::new(), Vec::new());
@@ -125,6 +130,10 @@ impl Problem {
     ) -> Result<Vec<String>, CertifyError> {
         let name = |index: usize| match self.structure {
             Structure::Composition => Coefficient::Weight(index),
+            Structure::Processed { processor } if index >= model.unknowns() - processor => {
+                Coefficient::Processor(index + processor - model.unknowns())
+            }
+            Structure::Processed { .. } => Coefficient::Weight(index),
             // With a drift first, the first kick of the list is zero.
             Structure::Aba if index.is_multiple_of(2) => Coefficient::Drift(index / 2),
             Structure::Aba => Coefficient::Kick(index / 2 + 1),
@@ -149,11 +158,15 @@ impl Problem {
         let (lists, others) = model.lists();
         let list = |numbers: Vec<usize>| {
             let values: Vec<&str> = numbers.iter().map(|index| &*digits[*index]).collect();
-            format!("[{}]", values.join(", "))
+            values.join(", ")
+        };
+        let list = |key: Key, numbers: Vec<usize>| match key {
+            Key::Processor => format!("back_and_forth({})", list(numbers)),
+            _ => format!("[{}]", list(numbers)),
         };
         let mut parts: Vec<(Key, String)> = lists
             .into_iter()
-            .map(|(key, numbers)| (key, list(numbers)))
+            .map(|(key, numbers)| (key, list(key, numbers)))
             .collect();
         parts.extend(others.into_iter().map(|(key, text)| (key, text.to_owned())));
         parts.push((Key::Claim, self.claim_text()));

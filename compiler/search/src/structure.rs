@@ -17,6 +17,11 @@ pub enum Structure {
     Plain,
     /// A palindrome of `s` steps of Störmer–Verlet, or of any other symmetric method of order 2.
     Composition,
+    /// The same as the kernel of a processed method. The processor has steps −a, −b, …, a, b, … with as many fractions.
+    Processed {
+        /// The number of fractions of the processor.
+        processor: usize,
+    },
 }
 
 impl Structure {
@@ -32,6 +37,7 @@ impl Structure {
             Structure::Bab => "bab",
             Structure::Plain => "plain",
             Structure::Composition => "composition",
+            Structure::Processed { .. } => "processed",
         }
     }
 }
@@ -59,8 +65,10 @@ pub(crate) struct Model {
     pub(crate) letters: Product,
     /// The product for the order conditions: of the basic method in a composition.
     pub(crate) steps: Product,
-    /// The unknown that is the argument of each step.
+    /// The unknown that is the argument of each step, in a processed method of each step of the kernel.
     pub(crate) sequence: Vec<usize>,
+    /// The fractions of a processor as steps of the basic method.
+    pub(crate) processor: Option<Product>,
     /// A typical size of each unknown.
     pub(crate) typical: DVector<f64>,
 }
@@ -71,7 +79,10 @@ impl Model {
             Structure::Aba => (DRIFT, 2 * kicks + 1),
             Structure::Bab => (KICK, 2 * kicks + 1),
             Structure::Plain => (KICK, 2 * kicks),
-            Structure::Composition => return Model::composition(kicks),
+            Structure::Composition => return Model::composition(structure, kicks, 0),
+            Structure::Processed { processor } => {
+                return Model::composition(structure, kicks, processor);
+            }
         };
         // The number of the unknown of each factor.
         let unknown = |index: usize| match structure.is_symmetric() {
@@ -91,6 +102,7 @@ impl Model {
         Model {
             structure,
             sequence,
+            processor: None,
             typical: DVector::from_fn(product.arguments.ncols(), |index, _| share(index)),
             steps: product.clone(),
             letters: product,
@@ -108,36 +120,58 @@ impl Model {
             structure: Structure::Plain,
             typical: DVector::zeros(sequence.len()),
             sequence,
+            processor: None,
             steps: product.clone(),
             letters: product,
         }
     }
 
-    /// The steps of `velocity-verlet`: half a kick, a drift, half a kick.
-    fn composition(steps: usize) -> Self {
-        let sequence: Vec<usize> = (0..steps)
-            .map(|index| index.min(steps - 1 - index))
+    /// A palindrome of steps of `velocity-verlet`, perhaps between a processor and its inverse.
+    fn composition(structure: Structure, kernel: usize, processor: usize) -> Self {
+        let sequence: Vec<usize> = (0..kernel)
+            .map(|index| index.min(kernel - 1 - index))
             .collect();
-        let weights = selection(&sequence);
-        let mut arguments = DMatrix::zeros(2 * steps + 1, weights.ncols());
-        for (index, weight) in weights.row_iter().enumerate() {
+        let weights = kernel.div_ceil(2);
+        // An unknown with a sign for each step: −a, −b, …, a, b, … of the processor, and of its inverse the steps back in reverse.
+        let written = || (0..processor).map(|index| weights + index);
+        let after: Vec<(usize, f64)> = written()
+            .map(|u| (u, -1.0))
+            .chain(written().map(|u| (u, 1.0)))
+            .collect();
+        let before = after.iter().rev().map(|(unknown, sign)| (*unknown, -sign));
+        let whole: Vec<(usize, f64)> = before
+            .chain(sequence.iter().map(|u| (*u, 1.0)))
+            .chain(after.iter().copied())
+            .collect();
+        let unknowns = weights + processor;
+        let mut arguments = DMatrix::zeros(2 * whole.len() + 1, unknowns);
+        for (index, (unknown, sign)) in whole.iter().enumerate() {
+            // Half a kick, a drift, half a kick.
             for (factor, share) in [(2 * index, 0.5), (2 * index + 1, 1.0), (2 * index + 2, 0.5)] {
-                let mut row = arguments.row_mut(factor);
-                row += weight * share;
+                arguments[(factor, *unknown)] += sign * share;
             }
         }
+        let of_base = |steps: &[(usize, f64)]| Product {
+            exponents: vec![Exponent::Base; steps.len()],
+            arguments: DMatrix::from_fn(steps.len(), unknowns, |row, column| match steps[row] {
+                (unknown, sign) if unknown == column => sign,
+                _ => 0.0,
+            }),
+        };
+        let share = 1.0 / kernel as f64;
         Model {
-            structure: Structure::Composition,
+            structure,
             sequence,
-            typical: DVector::from_element(weights.ncols(), 1.0 / steps as f64),
+            processor: (processor > 0).then(|| of_base(&after[processor..])),
+            typical: DVector::from_fn(
+                unknowns,
+                |index, _| if index < weights { share } else { 0.0 },
+            ),
             letters: Product {
-                exponents: alternating(KICK, 2 * steps + 1),
+                exponents: alternating(KICK, 2 * whole.len() + 1),
                 arguments,
             },
-            steps: Product {
-                exponents: vec![Exponent::Base; steps],
-                arguments: weights,
-            },
+            steps: of_base(&whole),
         }
     }
 
@@ -148,6 +182,7 @@ impl Model {
 
     /// The parts of the definition that list the unknowns, each with the numbers of its unknowns, and the parts that go with them.
     pub(crate) fn lists(&self) -> (Vec<(Key, Vec<usize>)>, Vec<(Key, &'static str)>) {
+        let weights = self.sequence.iter().max().map_or(0, |last| last + 1);
         let every_second = |start: usize| (start..self.unknowns()).step_by(2).collect();
         match self.structure {
             Structure::Aba => (
@@ -163,7 +198,14 @@ impl Model {
                 vec![],
             ),
             Structure::Composition => (
-                vec![(Key::Weights, (0..self.unknowns()).collect())],
+                vec![(Key::Weights, (0..weights).collect())],
+                vec![(Key::Base, "velocity-verlet"), (Key::Symmetric, "true")],
+            ),
+            Structure::Processed { .. } => (
+                vec![
+                    (Key::Weights, (0..weights).collect()),
+                    (Key::Processor, (weights..self.unknowns()).collect()),
+                ],
                 vec![(Key::Base, "velocity-verlet"), (Key::Symmetric, "true")],
             ),
         }

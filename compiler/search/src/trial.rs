@@ -13,46 +13,33 @@ use crate::scenes::{Half, Kind, SCENES, Scene, State};
 use crate::structure::Model;
 use crate::words::Exponent;
 
-/// A splitting as a list of drifts and kicks, in doubles.
+/// A splitting as a list of drifts and kicks, in doubles. A processed one has the lists of its processor and of its inverse too.
 #[derive(Debug, Clone)]
 pub struct Splitting {
-    flows: Vec<(Half, f64)>,
+    flows: Flows,
+    processor: Option<[Flows; 2]>,
     forces: usize,
 }
+
+type Flows = Vec<(Half, f64)>;
 
 impl Splitting {
     /// The drifts and kicks of a tableau; `None` if it is not a splitting.
     #[must_use]
     pub fn of(tableau: &Tableau) -> Option<Self> {
         let forces = tableau.evaluations()?.forces;
-        let numbers = tableau.to_f64();
-        let stages = numbers.b.len();
-        // In a splitting the entries of the matrices are the weights of earlier steps, and of the own one of the kind that comes first.
-        let is_splitting = |own_drift: bool| {
-            (0..stages).all(|i| {
-                (0..stages).all(|j| {
-                    let drifted = j < i || (j == i && own_drift);
-                    let kicked = j < i || (j == i && !own_drift);
-                    numbers.a[i][j] == if drifted { numbers.b[j] } else { 0.0 }
-                        && numbers.a_tilde[i][j] == if kicked { numbers.b_tilde[j] } else { 0.0 }
-                })
-            })
-        };
-        let drift_first = match (is_splitting(false), is_splitting(true)) {
-            (true, _) => false,
-            (_, true) => true,
-            _ => return None,
-        };
-        let mut flows = Vec::new();
-        for (drift, kick) in numbers.b.into_iter().zip(numbers.b_tilde) {
-            let pair = [(Half::Kick, kick), (Half::Drift, drift)];
-            match drift_first {
-                true => flows.extend(pair.into_iter().rev()),
-                false => flows.extend(pair),
-            }
-        }
-        flows.retain(|(_, fraction)| *fraction != 0.0);
-        Some(Splitting { flows, forces })
+        Some(match tableau.processed() {
+            None => Splitting {
+                flows: flows(tableau)?,
+                processor: None,
+                forces,
+            },
+            Some(processed) => Splitting {
+                flows: flows(&processed.kernel)?,
+                processor: Some([flows(&processed.inverse)?, flows(&processed.processor)?]),
+                forces,
+            },
+        })
     }
 
     /// Force evaluations a step.
@@ -67,12 +54,15 @@ impl Splitting {
             Half::Drift => DRIFT,
             Half::Kick => KICK,
         };
-        let exponents = self
-            .flows
-            .iter()
-            .map(|(half, _)| Exponent::Letter(letter(half)));
-        let fractions = self.flows.iter().map(|(_, fraction)| *fraction);
-        let fractions = DVector::from_iterator(self.flows.len(), fractions);
+        let whole: Vec<&(Half, f64)> = match &self.processor {
+            None => self.flows.iter().collect(),
+            Some([inverse, processor]) => {
+                inverse.iter().chain(&self.flows).chain(processor).collect()
+            }
+        };
+        let exponents = whole.iter().map(|(half, _)| Exponent::Letter(letter(half)));
+        let fractions = whole.iter().map(|(_, fraction)| *fraction);
+        let fractions = DVector::from_iterator(whole.len(), fractions);
         (Model::of_all(exponents.collect()), fractions)
     }
 
@@ -83,18 +73,60 @@ impl Splitting {
             .round()
             .max(1.0);
         let size = scene.time / (parts * steps);
+        let apply = |flows: &Flows, state: &mut State| {
+            for (half, fraction) in flows {
+                scene.apply(*half, fraction * size, state);
+            }
+        };
         let mut state = scene.start();
+        if let Some([inverse, _]) = &self.processor {
+            apply(inverse, &mut state);
+        }
         (0..SAMPLES)
             .map(|_| {
                 for _ in 0..steps as usize {
-                    for (half, fraction) in &self.flows {
-                        scene.apply(*half, fraction * size, &mut state);
-                    }
+                    apply(&self.flows, &mut state);
                 }
-                state.clone()
+                let mut shown = state.clone();
+                if let Some([_, processor]) = &self.processor {
+                    apply(processor, &mut shown);
+                }
+                shown
             })
             .collect()
     }
+}
+
+/// The drifts and kicks of a tableau; `None` if it is not a splitting.
+fn flows(tableau: &Tableau) -> Option<Flows> {
+    let numbers = tableau.to_f64();
+    let stages = numbers.b.len();
+    // In a splitting the entries of the matrices are the weights of earlier steps, and of the own one of the kind that comes first.
+    let is_splitting = |own_drift: bool| {
+        (0..stages).all(|i| {
+            (0..stages).all(|j| {
+                let drifted = j < i || (j == i && own_drift);
+                let kicked = j < i || (j == i && !own_drift);
+                numbers.a[i][j] == if drifted { numbers.b[j] } else { 0.0 }
+                    && numbers.a_tilde[i][j] == if kicked { numbers.b_tilde[j] } else { 0.0 }
+            })
+        })
+    };
+    let drift_first = match (is_splitting(false), is_splitting(true)) {
+        (true, _) => false,
+        (_, true) => true,
+        _ => return None,
+    };
+    let mut flows = Vec::new();
+    for (drift, kick) in numbers.b.into_iter().zip(numbers.b_tilde) {
+        let pair = [(Half::Kick, kick), (Half::Drift, drift)];
+        match drift_first {
+            true => flows.extend(pair.into_iter().rev()),
+            false => flows.extend(pair),
+        }
+    }
+    flows.retain(|(_, fraction)| *fraction != 0.0);
+    Some(flows)
 }
 
 /// States of a run that are compared.
