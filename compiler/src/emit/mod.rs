@@ -47,6 +47,10 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
             meaning: "the module that generated code imports".to_owned(),
         }));
     }
+    if tableau.has_gradient_kicks() {
+        let message = "there is no code of gradient kicks yet".to_owned();
+        return Err(ErrorKind::Definition { message });
+    }
     let numbers = tableau.numbers();
     let matrices = left_out(tableau);
     // The entries of the matrices that are left out are weights.

@@ -137,9 +137,12 @@ impl fmt::Display for ViolatedWord {
     }
 }
 
-/// The order of an explicit method; `None` if it is not a splitting for separable `H`. `given` is the order that follows from its
+/// The order of an explicit method; `None` if it is not a splitting for separable `H`, or has gradient kicks. `given` is the order that follows from its
 /// construction.
 pub(crate) fn perturbed_order(exact: &Exact, given: Option<&GivenOrder>) -> Option<PerturbedOrder> {
+    if exact.has_gradient_kicks() {
+        return None;
+    }
     let numbers = exact.numbers();
     let graph = StepGraph::new(Class::Separable, exact, &numbers);
     let chain = graph.splitting()?;

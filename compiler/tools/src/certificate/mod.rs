@@ -38,6 +38,10 @@ const VERSION: usize = 1;
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau) -> Result<String, Error> {
+    if tableau.has_gradient_kicks() {
+        let message = "there is no certificate of gradient kicks yet".to_owned();
+        return Err(ErrorKind::NotCertified { message }.into());
+    }
     let Some(numbers) = Numbers::of(tableau) else {
         let message = format!(
             "there is no certificate of this method: its coefficients are not in one field of algebraic numbers of degree at most {MAX_DEGREE} \
