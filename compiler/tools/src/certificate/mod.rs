@@ -38,10 +38,6 @@ const VERSION: usize = 1;
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau) -> Result<String, Error> {
-    if tableau.has_gradient_kicks() {
-        let message = "there is no certificate of gradient kicks yet".to_owned();
-        return Err(ErrorKind::NotCertified { message }.into());
-    }
     let Some(numbers) = Numbers::of(tableau) else {
         let message = format!(
             "there is no certificate of this method: its coefficients are not in one field of algebraic numbers of degree at most {MAX_DEGREE} \
@@ -60,6 +56,7 @@ pub fn write(tableau: &Tableau) -> Result<String, Error> {
         ("b", numbers.b),
         ("b_tilde", numbers.b_tilde),
     ];
+    members.extend(numbers.gradient.map(|gradient| ("gradient", gradient)));
     if let Some((a, a_tilde)) = numbers.matrices {
         members.extend([("a", a), ("a_tilde", a_tilde)]);
     }
@@ -90,6 +87,9 @@ fn doubles(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Fact
         ("b", vector(&doubles.b)),
         ("b_tilde", vector(&doubles.b_tilde)),
     ];
+    if !doubles.gradient.is_empty() {
+        members.push(("gradient", vector(&doubles.gradient)));
+    }
     if lower_triangular.is_none() {
         let matrix = |rows: &Vec<Vec<f64>>| List(rows.iter().map(vector).collect());
         members.push(("a", matrix(&doubles.a)));
