@@ -27,6 +27,7 @@ from pathlib import Path
 
 FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
     "assumptions": "assumptions",  # Orders that have too many trees.
+    "gradient": "gradient",  # Gradient kicks of splittings, for a quadratic T.
     "functions": "functions",  # The coefficients are functions of a transcendental number.
     "levels": "compositions",  # The coefficients are those of compositions of compositions.
     "solution": "solutions",  # The coefficients are the solution of order conditions.
@@ -55,8 +56,7 @@ def demand(holds, claim):
 
 def check_members(thing, needed, optional=()):
     demand(isinstance(thing, dict), "an object")
-    for name in needed:
-        thing[name]
+    for name in needed: thing[name]
     unknown = thing.keys() - {*needed, *optional}
     demand(not unknown, f"members that are known, not {', '.join(unknown)}")
 
@@ -348,6 +348,7 @@ def read_tree(text):
 @lru_cache(maxsize=1)
 def residuals(of):
     """The function that tells by how much a method violates the condition of a tree: its elementary weight less 1/gamma (HLW III.2)."""
+    if hasattr(of, "residuals"): return of.residuals()
     stages = lru_cache(maxsize=None)(lambda tree: of.apply(tree[0], product(tree[1])))
     product = lru_cache(maxsize=None)(lambda trees: of.times(product(trees[:-1]), stages(trees[-1])) if trees else of.one)
     return lambda tree: of.dot(of.weights[tree[0]], product(tree[1])) - Fraction(1, density(tree))
@@ -412,10 +413,11 @@ def read(text):
 
 def method_of(certificate):
     numbers, layout, stages = certificate["numbers"], certificate["layout"], whole(certificate["stages"])
-    kind, weights = numbers["kind"], {"q": certificate["b"], "p": certificate["b_tilde"]}
+    kind, weights = numbers["kind"], {colour: certificate[name] for colour, name in (("q", "b"), ("p", "b_tilde"), ("g", "gradient")) if name in certificate}
     matrices = {"q": certificate["a"], "p": certificate["a_tilde"]} if layout == "matrices" else {}
     count = len(numbers["polynomial"]) - 1 if kind == "nodes" else stages if kind == "levels" else len(certificate["b"])
     demand(0 < stages == count and (stages <= MAX_STAGES or kind == "levels"), f"{stages} stages, of at most {MAX_STAGES}")
+    demand("g" not in weights or kind != "levels" and not matrices, "gradient kicks of a splitting that is written out")
     if kind in ("solution", "levels") and not matrices:
         return further(kind, numbers, layout, weights)
     if kind == "nodes" and matrices:
@@ -423,12 +425,11 @@ def method_of(certificate):
         return Nodes(numbers["polynomial"], weights, matrices, certificate["doubles"])
     demand(kind in ("field", "functions"), "numbers of a kind that is known and belongs to the layout")
     number = further("functions", numbers) if kind == "functions" else field(numbers["polynomial"], numbers["root"])
-    if isinstance(number, NotChecked):
-        return number
+    if isinstance(number, NotChecked): return number
     check_members(numbers, ("kind", "polynomial", "root"), ("variable",) if kind == "functions" else ())
     weights = {colour: [number(x) for x in f] for colour, f in weights.items()}
     matrices = {colour: [[number(x) for x in row] for row in rows] for colour, rows in matrices.items()}
-    return Stages(layout, weights, matrices)
+    return further("gradient", layout, weights) if "g" in weights else Stages(layout, weights, matrices)
 
 def check(text):
     """Returns a certificate, its method with functions for the ends of the coefficients, by name, and what was checked, or raises one of WRONG."""
@@ -440,18 +441,18 @@ def check(text):
     matrices = ("a", "a_tilde") if certificate["layout"] == "matrices" else ()  # Those of a splitting follow from its weights.
     first, last = ("symplectic", "symmetric") if matrices else ("palindrome",), ("perturbed", "stability")
     needed = ("format", "version", "name", "stages", "layout", "numbers", "b", "b_tilde", *matrices, "doubles", "order", "not_covered")
-    check_members(certificate, needed, (*first, *last))
-    check_members(certificate["doubles"], ("c", "c_tilde", "b", "b_tilde", *matrices), ("a", "a_tilde"))
-    check_members(certificate["order"], (), CLASSES)
-    missing = certificate["not_covered"]
-    covered = {*certificate, *(f"order ({kind})" for kind in (*certificate["order"], *certificate))}
+    kicks = ("gradient",) if "gradient" in certificate else ()  # For these T is quadratic.
+    check_members(certificate, needed, (*first, *kicks, *(last[1:] if kicks else last)))
+    check_members(certificate["doubles"], ("c", "c_tilde", "b", "b_tilde", *kicks, *matrices), ("a", "a_tilde"))
+    check_members(certificate["order"], (), CLASSES[2:] if kicks else CLASSES)
+    missing, covered = certificate["not_covered"], {*certificate, *(f"order ({kind})" for kind in (*certificate["order"], *certificate))}
     listed = isinstance(missing, list) and len(missing) == len({*missing}) and {*missing} <= NOT_COVERED - covered
     demand(listed, "not_covered as a list of claims that are not made, each once")
     of = method_of(certificate)
-    if isinstance(of, NotChecked):
-        return certificate, None, [of]
+    if isinstance(of, NotChecked): return certificate, None, [of]
     demand(of.s == certificate["stages"], f"{of.s} stages")
     exact, residual, tests = {"method": of}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
+    exact.update({name: lambda: of.ends(of.weights["g"]) for name in kicks})
     for colour, tilde in (("q", ""), ("p", "_tilde")):
         exact["a" + tilde] = lambda colour=colour: of.entries(colour)
         exact["b" + tilde] = lambda colour=colour: of.ends(of.weights[colour])
@@ -486,8 +487,7 @@ def verdict(path):
     return status, f"{'NOT ALL CHECKED' if status else 'right'}: {', '.join(done)}"
 
 def main(paths):
-    found = {0}
-    paths = paths or sorted((Path(__file__).parent / "certificates").glob("*.json")) or sys.exit("no certificates beside this file: name some")
+    found, paths = {0}, paths or sorted((Path(__file__).parent / "certificates").glob("*.json")) or sys.exit("no certificates beside this file: name some")
     for path in map(Path, paths):
         status, text = verdict(path)
         found.add(status)

@@ -15,12 +15,20 @@ pub struct Coefficients<T> {
     pub a: Vec<Vec<T>>,
     /// `ã_ij`
     pub a_tilde: Vec<Vec<T>>,
+    /// `g_i` of gradient kicks; empty for methods without such kicks.
+    pub gradient: Vec<T>,
 }
 
 impl<T> Coefficients<T> {
-    /// All of them: `c`, `c̃`, `b`, `b̃`, then `a` and `ã` by rows.
+    /// All of them: `c`, `c̃`, `b`, `b̃`, `g`, then `a` and `ã` by rows.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
-        let vectors = [&self.c, &self.c_tilde, &self.b, &self.b_tilde];
+        let vectors = [
+            &self.c,
+            &self.c_tilde,
+            &self.b,
+            &self.b_tilde,
+            &self.gradient,
+        ];
         vectors
             .into_iter()
             .chain(&self.a)
@@ -43,6 +51,7 @@ impl<T> Coefficients<T> {
             b_tilde: vector(&self.b_tilde),
             a: matrix(&self.a),
             a_tilde: matrix(&self.a_tilde),
+            gradient: vector(&self.gradient),
         }
     }
 
@@ -51,7 +60,7 @@ impl<T> Coefficients<T> {
     where
         T: Clone,
     {
-        let vector = |v: &Vec<T>| order.iter().map(|&i| v[i].clone()).collect();
+        let vector = |v: &Vec<T>| -> Vec<T> { order.iter().map(|&i| v[i].clone()).collect() };
         let matrix = |m: &Vec<Vec<T>>| order.iter().map(|&i| vector(&m[i])).collect();
         Coefficients {
             c: vector(&self.c),
@@ -60,6 +69,10 @@ impl<T> Coefficients<T> {
             b_tilde: vector(&self.b_tilde),
             a: matrix(&self.a),
             a_tilde: matrix(&self.a_tilde),
+            gradient: match self.gradient.is_empty() {
+                true => Vec::new(),
+                false => vector(&self.gradient),
+            },
         }
     }
 
@@ -78,6 +91,7 @@ impl<T> Coefficients<T> {
             b_tilde: vector(self.b_tilde, other.b_tilde),
             a: matrix(self.a, other.a),
             a_tilde: matrix(self.a_tilde, other.a_tilde),
+            gradient: vector(self.gradient, other.gradient),
         }
     }
 }

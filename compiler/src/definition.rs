@@ -85,6 +85,10 @@ keys! {
     /// The drifts `q += drift_i h ∂T/∂p` of a splitting, each after the kick of the same number: `1, 0`.
     Drift = "drift", Some("LIST"),
         "The drifts of a splitting, q += drift_i h dT/dp, each after the kick of the same number: \"1, 0\"";
+    /// The weights `g_i` of the gradient kicks of a splitting for quadratic kinetic energy, one for each kick: `0, 1/72, 0`. With the
+    /// force `f = −∂U/∂q` a kick is then `p += h (kick_i f + 2 g_i h² f′ M⁻¹ f)`.
+    Gradient = "gradient", Some("LIST"),
+        "The gradient weights of the kicks of a splitting, for quadratic kinetic energy: p += h (kick_i f + 2 g_i h^2 f' f/M) with the force f: \"0, 1/72, 0\"";
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First = "first", Some("FLOW"),
         "What comes first: kick or drift [default: kick]";
@@ -134,6 +138,7 @@ impl Key {
 /// | `basis`, `quadrature`, perhaps `weights` | rectangular Galerkin: at least as many nodes (T §2.2) |
 /// | `a`, `b`, perhaps `a_tilde`, `b_tilde` | given coefficients |
 /// | `kick`, `drift`, perhaps `first`, `symmetric` | a splitting `H = T(p) + U(q)`: kicks and drifts one after another (MW 2.6.4) |
+/// | `kick`, `drift`, `gradient`, perhaps `first`, `symmetric`, `claim` | the same with gradient kicks, for quadratic `T` (Chin 1997) |
 /// | `kick`, `drift`, `claim`, perhaps `first`, `symmetric` | the exact splitting behind printed digits, certified |
 /// | `base`, perhaps `weights`, `symmetric` | a method of the catalogue, or steps of it one after another (GNI II.4) |
 /// | `base`, `weights`, `claim`, perhaps `symmetric` | the exact composition behind printed weights, certified |

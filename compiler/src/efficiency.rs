@@ -7,6 +7,8 @@
 //! error = C (n/N)^p = (n C^{1/p} / N)^p .
 //! ```
 //!
+//! A gradient kick counts as two evaluations: it takes a force and a product of the Hessian of `U` and a vector.
+//!
 //! So `n C^{1/p}` is the number of evaluations in a unit of time at which the error is 1, by its leading term. It
 //! compares methods of one order at any accuracy. For an error `ε` the number is `n (C/ε)^{1/p}`, which compares methods
 //! of different orders (McLachlan 1995, §3; Blanes & Moan 2002, the effective error).
@@ -16,7 +18,7 @@ use crate::order::HamiltonianClass;
 use crate::tableau::Tableau;
 
 impl Tableau {
-    /// Force evaluations in a unit of time for an error of `tolerance`, `n (C/ε)^{1/p}`, by the leading term of the error
+    /// Force evaluations, with two for a gradient kick, in a unit of time for an error of `tolerance`, `n (C/ε)^{1/p}`, by the leading term of the error
     /// for a class of Hamiltonians. This figure compares methods; it is not a bound.
     ///
     /// `None` for methods that solve for their stages, for methods whose order is only a lower bound, and if the figure
@@ -35,8 +37,8 @@ impl Tableau {
         let report = self.orders();
         let found = report.class(class);
         let constant = to_f64(&found.error_constant.as_ref()?.value());
-        let forces = self.evaluations()?.forces as f64;
-        let cost = forces * (constant / tolerance).powf(1.0 / found.order as f64);
+        let evaluations = self.evaluations()?.cost() as f64;
+        let cost = evaluations * (constant / tolerance).powf(1.0 / found.order as f64);
         (cost.is_finite() && found.order > 0).then_some(cost)
     }
 }

@@ -59,6 +59,11 @@ impl Exact {
         over_algebra!(self, pair => pair.algebra.stages())
     }
 
+    /// Whether it is a splitting with gradient kicks.
+    pub fn has_gradient_kicks(&self) -> bool {
+        over_algebra!(self, pair => pair.gradient.is_some())
+    }
+
     /// Which matrices of a splitting are lower triangular; `None` for other methods.
     pub fn lower_triangular(&self) -> Option<LowerTriangular> {
         over_algebra!(self, pair => pair.lower_triangular())

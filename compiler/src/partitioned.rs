@@ -15,6 +15,9 @@ use crate::coefficients::Coefficients;
 /// Q_i = q0 + h Σ_j a_ij ∂H/∂p(Q_j, P_j)      q1 = q0 + h Σ_i b_i ∂H/∂p(Q_i, P_i)
 /// P_i = p0 − h Σ_j ã_ij ∂H/∂q(Q_j, P_j)      p1 = p0 − h Σ_i b̃_i ∂H/∂q(Q_i, P_i)
 /// ```
+///
+/// A splitting may have gradient kicks, for quadratic kinetic energy: with `f = −∂U/∂q` its kicks are
+/// `p += h (b̃_i f + 2 g_i h² f′ M⁻¹ f)`, the flow of the potential `b̃_i U − g_i h² ∇U·M⁻¹∇U`.
 #[derive(Debug, PartialEq)]
 pub struct Partitioned<A: StageAlgebra> {
     /// The algebra that the coefficients are elements of.
@@ -27,6 +30,8 @@ pub struct Partitioned<A: StageAlgebra> {
     pub b: A::Vector,
     /// `b̃_i`
     pub b_tilde: A::Vector,
+    /// `g_i` of gradient kicks, for splittings with such kicks only.
+    pub gradient: Option<A::Vector>,
 }
 
 /// The form of the matrices of a splitting whose stages have one drift and one kick each.
@@ -57,56 +62,66 @@ impl LowerTriangular {
     }
 }
 
-/// The flows of a splitting in their order: alternating kicks and drifts, without flows of zero time at either end.
-#[derive(Debug, Clone)]
-pub struct Flows<T> {
-    /// Whether the first one is a kick.
-    kick_first: bool,
-    /// The fractions of the step.
-    fractions: Vec<T>,
+/// A kick or a drift.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flow<T> {
+    /// Whether it is a kick.
+    pub is_kick: bool,
+    /// The fraction of the step.
+    pub fraction: T,
+    /// `g` of a gradient kick.
+    pub gradient: Option<T>,
 }
 
+impl<T> Flow<T> {
+    /// Other numbers in the places of the fraction and of `g`.
+    fn map<U>(&self, mut each: impl FnMut(&T) -> U) -> Flow<U> {
+        Flow {
+            is_kick: self.is_kick,
+            fraction: each(&self.fraction),
+            gradient: self.gradient.as_ref().map(each),
+        }
+    }
+}
+
+/// The flows of a splitting in their order: alternating kicks and drifts, without flows of zero time at either end.
+#[derive(Debug, Clone)]
+pub struct Flows<T>(Vec<Flow<T>>);
+
 impl<T: PartialEq> Flows<T> {
-    fn new(mut kick_first: bool, mut fractions: Vec<T>, zero: &T) -> Self {
-        while fractions.last() == Some(zero) {
-            fractions.pop();
+    fn new(mut flows: Vec<Flow<T>>, zero: &T) -> Self {
+        let nothing = |flow: &Flow<T>| flow.fraction == *zero && flow.gradient.is_none();
+        while flows.last().is_some_and(nothing) {
+            flows.pop();
         }
-        let start = fractions.iter().take_while(|x| *x == zero).count();
-        fractions.drain(..start);
-        kick_first ^= start % 2 == 1;
-        Flows {
-            kick_first,
-            fractions,
-        }
+        let start = flows.iter().take_while(|flow| nothing(flow)).count();
+        flows.drain(..start);
+        Flows(flows)
     }
 
     /// Whether they are the same from both ends.
     pub fn is_palindrome(&self) -> bool {
         // Both ends are of one kind.
-        self.fractions.len() % 2 == 1 && self.fractions.iter().eq(self.fractions.iter().rev())
+        self.0.len() % 2 == 1 && self.0.iter().eq(self.0.iter().rev())
     }
 }
 
 impl<T> Flows<T> {
-    /// The fractions of the step, each with whether it is that of a kick.
-    pub fn iter(&self) -> impl Iterator<Item = (bool, &T)> {
-        let kicks = [self.kick_first, !self.kick_first].into_iter().cycle();
-        kicks.zip(&self.fractions)
+    /// The flows in their order.
+    pub fn iter(&self) -> impl Iterator<Item = &Flow<T>> {
+        self.0.iter()
     }
 
     /// Other numbers in the places of the fractions.
-    pub fn map<U>(&self, each: impl FnMut(&T) -> U) -> Flows<U> {
-        Flows {
-            kick_first: self.kick_first,
-            fractions: self.fractions.iter().map(each).collect(),
-        }
+    pub fn map<U>(&self, mut each: impl FnMut(&T) -> U) -> Flows<U> {
+        Flows(self.0.iter().map(|flow| flow.map(&mut each)).collect())
     }
 
     /// The first half of an odd number of flows, with half of the middle flow at its end.
-    pub fn first_half(mut self, halved: impl FnOnce(&T) -> T) -> Self {
-        self.fractions.truncate(self.fractions.len() / 2 + 1);
-        if let Some(middle) = self.fractions.last_mut() {
-            *middle = halved(middle);
+    pub fn first_half(mut self, halved: impl FnMut(&T) -> T) -> Self {
+        self.0.truncate(self.0.len() / 2 + 1);
+        if let Some(middle) = self.0.last_mut() {
+            *middle = middle.map(halved);
         }
         self
     }
@@ -135,6 +150,7 @@ impl<F: Field> Partitioned<Dense<F>> {
             algebra: Arc::new(Dense::new(field, b.len())),
             b,
             b_tilde,
+            gradient: None,
         }
     }
 }
@@ -147,6 +163,7 @@ impl<A: StageAlgebra> Clone for Partitioned<A> {
             a_tilde: self.a_tilde.clone(),
             b: self.b.clone(),
             b_tilde: self.b_tilde.clone(),
+            gradient: self.gradient.clone(),
         }
     }
 }
@@ -169,6 +186,7 @@ impl<A: StageAlgebra> Partitioned<A> {
             algebra,
             a,
             b,
+            gradient: None,
         })
     }
 
@@ -180,6 +198,7 @@ impl<A: StageAlgebra> Partitioned<A> {
             b_tilde: b.clone(),
             a,
             b,
+            gradient: None,
         }
     }
 
@@ -219,7 +238,7 @@ impl<A: StageAlgebra> Partitioned<A> {
         }
     }
 
-    /// The method with the step `γh`: `γa_ij`, `γb_i`, `γã_ij`, `γb̃_i`, for the same `γ` at every stage.
+    /// The method with the step `γh`: `γa_ij`, `γb_i`, `γã_ij`, `γb̃_i`, `γ³g_i`, for the same `γ` at every stage.
     #[must_use]
     pub fn scaled(&self, fraction: &A::Vector) -> Self {
         let algebra = &self.algebra;
@@ -239,6 +258,11 @@ impl<A: StageAlgebra> Partitioned<A> {
             } else {
                 vector(&self.b_tilde)
             },
+            gradient: self.gradient.as_ref().map(|gradient| {
+                (0..3).fold(gradient.clone(), |product, _| {
+                    algebra.multiply(&product, fraction)
+                })
+            }),
             algebra: Arc::clone(algebra),
             a,
             b,
@@ -279,8 +303,12 @@ impl<A: StageAlgebra> Partitioned<A> {
             values.iter().map(|x| x.ball(bits)).collect()
         };
         let (b, b_tilde) = (vector(&self.b), vector(&self.b_tilde));
+        let gradient = self.gradient.as_ref().map(vector);
         if let Some(lower_triangular) = self.lower_triangular() {
-            return Partitioned::of_splitting(Balls::new(bits), lower_triangular, b, b_tilde);
+            return Partitioned {
+                gradient,
+                ..Partitioned::of_splitting(Balls::new(bits), lower_triangular, b, b_tilde)
+            };
         }
         let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
             let row = |row: &Vec<Number<'_>>| row.iter().map(|x| x.ball(bits)).collect();
@@ -292,19 +320,35 @@ impl<A: StageAlgebra> Partitioned<A> {
             a_tilde: matrix(&self.a_tilde),
             b,
             b_tilde,
+            gradient,
         }
     }
 
     /// The flows of a splitting, by its [`Partitioned::lower_triangular`].
     pub(crate) fn flows(&self) -> Option<Flows<Scalar<A>>> {
-        let (kick_first, first, second) = match self.lower_triangular()? {
-            LowerTriangular::KicksFirst => (true, &self.b_tilde, &self.b),
-            LowerTriangular::DriftsFirst => (false, &self.b, &self.b_tilde),
-        };
-        let [first, second] = [first, second].map(|f| self.algebra.functional(f));
-        let fractions = first.into_iter().zip(second).flat_map(<[_; 2]>::from);
+        let lower_triangular = self.lower_triangular()?;
         let zero = self.algebra.constants().rational(&BigRational::default());
-        Some(Flows::new(kick_first, fractions.collect(), &zero))
+        let [drifts, kicks] = [&self.b, &self.b_tilde].map(|f| self.algebra.functional(f));
+        let gradients = self.gradient.as_ref().map(|g| self.algebra.functional(g));
+        let pairs = kicks.into_iter().zip(drifts).enumerate();
+        let flows = pairs.flat_map(|(i, (kick, drift))| {
+            let gradient = gradients.as_ref().and_then(|all| all.get(i));
+            let kick = Flow {
+                is_kick: true,
+                fraction: kick,
+                gradient: gradient.filter(|g| **g != zero).cloned(),
+            };
+            let drift = Flow {
+                is_kick: false,
+                fraction: drift,
+                gradient: None,
+            };
+            match lower_triangular {
+                LowerTriangular::KicksFirst => [kick, drift],
+                LowerTriangular::DriftsFirst => [drift, kick],
+            }
+        });
+        Some(Flows::new(flows.collect(), &zero))
     }
 
     fn row_sums(&self, matrix: &A::Matrix) -> A::Vector {
@@ -347,6 +391,7 @@ impl<A: StageAlgebra> Partitioned<A> {
         let (same_a, same_b) = self.equal_halves();
         let (c, b, a) = (sums(self.c()), weights(&self.b), matrix(&self.a));
         Coefficients {
+            gradient: self.gradient.as_ref().map(&weights).unwrap_or_default(),
             c_tilde: if same_a {
                 c.clone()
             } else {

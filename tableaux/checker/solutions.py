@@ -8,6 +8,7 @@ from functools import lru_cache
 from check_certificate import Number, Stages, check_members, demand, rationals, read_tree, residuals, rounded_from, whole
 
 from . import processed
+from .gradient import gradient
 from .rootings import rootings, unrooted
 from .splittings import base_conditions, base_residual, coefficient, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
 
@@ -91,7 +92,11 @@ class Jet(Number):
 def solution(numbers, layout, weights):
     """The splitting with these coefficients, and the orders that follow."""
     found = Solution(numbers, layout, weights)
-    return Stages(layout, found.weights, {}, found.given())
+    return splitting(layout, found.weights, found.given())
+
+
+def splitting(layout, weights, solved=None):
+    return gradient(layout, weights, solved) if "g" in weights else Stages(layout, weights, {}, solved)
 
 
 class Solution:
@@ -110,7 +115,8 @@ class Solution:
         demand(0 < len(decimals) <= MAX_UNKNOWNS, f"between 1 and {MAX_UNKNOWNS} unknowns")
         demand(len(numbers["conditions"]) == len(decimals), f"{len(numbers['conditions'])} conditions, as many as unknowns")
         self.layout, self.affine = layout, {colour: [self.vector(x, decimals) for x in list_] for colour, list_ in weights.items()}
-        demand(len(weights["q"]) == len(weights["p"]), "lists of one length")
+        demand(len({*map(len, weights.values())}) == 1, "lists of one length")
+        demand("g" not in weights or self.kind == "nystrom", "gradient kicks for a quadratic T")
         self.factors = all_flows = flows(layout, self.affine, is_zero=lambda x: not any(x))
         if self.kind == "composition":
             self.factors = [(None, self.vector(x, decimals)) for x in numbers["weights"]]
@@ -163,7 +169,7 @@ class Solution:
         """What has to vanish, as many as unknowns."""
         factors, weights = self.at(unknowns)
         if self.kind == "nystrom":
-            residual = residuals(Stages(self.layout, weights, {}))
+            residual = residuals(splitting(self.layout, weights))
         else:
             count, factors = len(self.factors), product_of(factors)
             factors, steps, residual_of = factors[:count], factors[count:], base_residual if self.kind == "composition" else splitting_residual

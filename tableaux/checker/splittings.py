@@ -26,6 +26,8 @@ def is_zero(x):
 def flows(layout, weights, is_zero=is_zero):
     """The flows of a splitting one after another, with their fractions of the step."""
     colours = "pq" if layout == "kicks first" else "qp"
+    if "g" in weights:  # Half of [B, [A, B]] before the kick and half after it: the same forwards and backwards.
+        colours = colours.replace("p", "gpg")
     pairs = zip(*(weights[colour] for colour in colours))
     return [(colour, x) for pair in pairs for colour, x in zip(colours, pair) if not is_zero(x)]
 

@@ -114,6 +114,9 @@ def are_rational(numbers):
 
 def one_step(of):
     """The determinant of the equations of the stages, and the numerators of m11, m12, m21, m22 over it."""
+    if hasattr(of, "one_step"):
+        determinant, step = of.one_step()
+        return determinant, {name: [simple(x) for x in f] for name, f in step.items()}
     # Q = q0 u + nu p0 A v and P = p0 v - nu q0 A~ u with u = (1 + z A A~)^-1 1 and v = (1 + z A~ A)^-1 1, as series in z.
     series, u, v = {"11": [Fraction(1)], "12": [], "21": [], "22": [Fraction(1)]}, of.one, of.one
     for _ in range(of.s + 1):

@@ -72,6 +72,7 @@ def table(text, certificate, exact):
     demand(table["stages"] == certificate["stages"], f"{table['stages']} stages")
     decimals = table["decimals"]
     needed = {"c", "c_tilde", "b", "b_tilde"} | ({"a", "a_tilde"} if certificate["layout"] == "matrices" else set())
+    needed |= {"gradient"} & certificate.keys()
     demand(needed <= decimals.keys(), "decimals of all coefficients")
 
     def rounding(text):

@@ -193,7 +193,7 @@ impl Method {
             order: Orders(vec![found.order]),
             shown: found.order.to_string(),
             evidence: format!("{at_least}{known}"),
-            forces: tableau.evaluations().map(|evaluations| evaluations.forces),
+            forces: tableau.evaluations().map(|evaluations| evaluations.cost()),
             error_constant: constant.and_then(|constant| constant.parse().ok()),
             cost: tableau.evaluations_for(class, tolerance),
         }
@@ -210,7 +210,7 @@ impl Method {
             order: Orders(found.orders()),
             shown: found.numbers(),
             evidence: known.join(", "),
-            forces: tableau.evaluations().map(|evaluations| evaluations.forces),
+            forces: tableau.evaluations().map(|evaluations| evaluations.cost()),
             error_constant: None,
             cost: None,
         })
@@ -240,11 +240,13 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     let tolerance = choice.tolerance.unwrap_or(1e-8);
     let chosen = |entry: catalogue::Entry| -> Result<Option<Method>, Error> {
         let tableau = entry.derive()?;
-        let forces = tableau.evaluations().map(|evaluations| evaluations.forces);
+        let forces = tableau.evaluations().map(|evaluations| evaluations.cost());
         if !choice.takes_evaluations(forces) {
             return Ok(None);
         }
         let method = match class {
+            // Gradient kicks are for quadratic T only.
+            Some(class) if !tableau.orders().class(class).exists() => None,
             Some(class) => Some(Method::new(entry, &tableau, class, tolerance)),
             None => Method::perturbed(entry, &tableau),
         };
@@ -289,8 +291,12 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
         .map(str::to_owned),
     ];
     rows.extend(methods.into_iter().map(Method::row));
+    let gradient = match class {
+        HamiltonianClass::Nystrom => " A gradient kick counts as two.",
+        _ => "",
+    };
     let mut text = format!(
-        "Methods for {class} H. Forces: force evaluations per step, for methods that are explicit for separable H.\n\
+        "Methods for {class} H. Forces: force evaluations per step, for methods that are explicit for separable H.{gradient}\n\
          Cost: force evaluations per unit of time for an error of {tolerance:e}, forces × (error constant / error)^(1/order).\n\n"
     );
     text.push_str(&aligned(&rows));

@@ -83,7 +83,12 @@ fn row_of_facts(entry: catalogue::Entry) -> Result<String, Error> {
     ]
     .into_iter()
     .filter_map(|(word, property)| property.holds.then_some(word))
-    .chain((!properties.symplectic.holds).then_some("separable H only"))
+    .chain(
+        (!properties.symplectic.holds).then_some(match tableau.has_gradient_kicks() {
+            true => "quadratic T only",
+            false => "separable H only",
+        }),
+    )
     .chain(less_than_proved(&report))
     .collect();
     let stable = first_interval(&tableau);

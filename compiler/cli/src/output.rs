@@ -11,8 +11,11 @@ use symplectic_compiler::{Error, ErrorKind, Fitted, Limits, Tableau};
 use symplectic_terminal::errors;
 use symplectic_tools::Language;
 
-/// An order, with "≥" if only a lower bound is known.
+/// An order, with "≥" if only a lower bound is known, and a dash for a class that the method does not step.
 pub(crate) fn order(found: &ClassOrder) -> String {
+    if !found.exists() {
+        return "–".to_owned();
+    }
     let at_least = if found.refuted_by.is_none() {
         "≥ "
     } else {

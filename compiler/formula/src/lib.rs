@@ -38,6 +38,7 @@ pub mod elaborate;
 pub mod emit;
 mod equations;
 pub mod evaluate;
+mod force_gradient;
 pub mod function;
 pub mod graph;
 pub mod hessian;

@@ -117,7 +117,7 @@ impl Problem {
             }
         }
         drift.resize_with(kick.len(), Printed::zero);
-        certify(&Splitting { kick, drift }, &self.claim)
+        certify(&Splitting { kick, drift, gradient: Vec::new() }, &self.claim)
     }
 
     /// The digits of the unknowns of the exact method.

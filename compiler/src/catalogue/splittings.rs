@@ -118,6 +118,32 @@ pub(super) const ROWS: &[Row] = &[
                  the quartic is the condition of order 3 for kicks that are the drifts in reverse",
     },
     Row {
+        name: "chin-1997-c",
+        title: "two kicks and a gradient kick in the middle, order 4 for quadratic T, positive coefficients",
+        definition: "kick: [1/6, 2/3], drift: [1/2], gradient: [0, 1/72], symmetric: true",
+        stages: &[3],
+        source: "Suzuki, Phys. Lett. A 201 (1995); Chin, Symplectic integrators from composite operator factorizations, \
+                 Phys. Lett. A 226 (1997); called 4A by Chin & Chen 2005, and C elsewhere; \
+                 the gradient weight is the one with which the conditions of order 3 hold",
+    },
+    Row {
+        name: "chin-chen-2002-4b",
+        title: "two gradient kicks, order 4 for quadratic T, positive coefficients",
+        definition: "kick: 1/2, drift: [1/2 - sqrt(3)/6, sqrt(3)/3], gradient: 1/24 - sqrt(3)/48, first: drift, symmetric: true",
+        stages: &[3],
+        source: "Suzuki, Phys. Lett. A 201 (1995); Chin, Phys. Lett. A 226 (1997); 4B of Chin & Chen, Gradient symplectic algorithms for \
+                 solving the Schrödinger equation with time-dependent potentials, J. Chem. Phys. 117 (2002); \
+                 the gradient weight is the one with which the conditions of order 3 hold",
+    },
+    Row {
+        name: "chin-chen-2002-4c",
+        title: "two kicks and a gradient kick between them, order 4 for quadratic T, positive coefficients",
+        definition: "kick: [3/8, 1/4], drift: [1/6, 1/3], gradient: [0, 1/192], first: drift, symmetric: true",
+        stages: &[4],
+        source: "4C of Chin & Chen, Gradient symplectic algorithms for solving the Schrödinger equation with time-dependent potentials, \
+                 J. Chem. Phys. 117 (2002); the gradient weight is the one with which the conditions of order 3 hold",
+    },
+    Row {
         name: "triple-jump-4",
         title: "three steps of Störmer–Verlet",
         definition: "base: stormer-verlet, weights: triple_jump(4)",

@@ -24,6 +24,22 @@ pub enum CertifyError {
         /// The number of drifts.
         drifts: usize,
     },
+    /// Another claim than one for quadratic kinetic energy, of a splitting with gradient kicks.
+    #[error("gradient kicks need quadratic T: claim `nystrom({order})`")]
+    GradientKicks {
+        /// The order that is claimed.
+        order: usize,
+    },
+    /// Not one weight for each kick.
+    #[error(
+        "{kicks} kicks and {weights} weights of gradient kicks: one for each kick; write 0 where there is none"
+    )]
+    GradientLengths {
+        /// The number of kicks.
+        kicks: usize,
+        /// The number of weights.
+        weights: usize,
+    },
     /// There are no coefficients, or too many.
     #[error("{count} stages; between 1 and {limit} are certified")]
     Stages {

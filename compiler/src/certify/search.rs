@@ -26,8 +26,9 @@ use crate::arithmetic::rounding::Decimal;
 /// Proves that a splitting with exact coefficients and the claimed order exists near the printed digits.
 ///
 /// # Errors
-/// * [`CertifyError::Lengths`], [`CertifyError::Stages`], [`CertifyError::TooLarge`], [`CertifyError::Order`] if
+/// * [`CertifyError::Lengths`], [`CertifyError::GradientLengths`], [`CertifyError::Stages`], [`CertifyError::TooLarge`], [`CertifyError::Order`] if
 ///   the input is not a valid splitting or claim,
+/// * [`CertifyError::GradientKicks`] for gradient kicks with another claim than [`Claim::Nystrom`],
 /// * [`CertifyError::WeightSum`] if kicks or drifts do not sum to 1, by more than their digits explain,
 /// * [`CertifyError::TooFewCoefficients`] if there are more conditions than unknowns,
 /// * [`CertifyError::DifferentSolution`], with its certificate, if the nearest exact method that was found is
@@ -36,7 +37,14 @@ use crate::arithmetic::rounding::Decimal;
 pub fn certify(splitting: &Splitting, claim: &Claim) -> Result<Certificate, CertifyError> {
     splitting.check()?;
     claim.check()?;
-    let all = || splitting.kick.iter().chain(&splitting.drift);
+    if !splitting.gradient.is_empty() && !matches!(claim, Claim::Nystrom(_)) {
+        let order = claim.order();
+        return Err(CertifyError::GradientKicks { order });
+    }
+    let all = || {
+        let linear = splitting.kick.iter().chain(&splitting.drift);
+        linear.chain(&splitting.gradient)
+    };
     let tolerance = tolerance(all());
     let bits = digit_bits(all());
     let mut readings = readings(splitting);
@@ -483,22 +491,23 @@ pub(super) fn expanded(
     unknowns: &[Interval],
     bits: u32,
 ) -> (Vec<Step>, Vec<Interval>) {
-    let mut sorted: Vec<(usize, u8, Interval)> = targets
+    let mut sorted: Vec<(usize, Kind, Interval)> = targets
         .iter()
         .map(|target| {
             let value = target.enclosed(unknowns, bits);
             match target.name {
-                Coefficient::Drift(index) => (index, DRIFT, value),
+                Coefficient::Drift(index) => (index, Kind::Letter(DRIFT), value),
+                Coefficient::Gradient(index) => (index, Kind::Gradient, value),
                 Coefficient::Kick(index)
                 | Coefficient::Weight(index)
-                | Coefficient::Processor(index) => (index, KICK, value),
+                | Coefficient::Processor(index) => (index, Kind::Letter(KICK), value),
             }
         })
         .collect();
-    // In each stage the kick comes first.
-    sorted.sort_by_key(|(index, letter, _)| (*index, std::cmp::Reverse(*letter)));
-    let step = |(argument, (_, letter, _)): (usize, &(usize, u8, Interval))| {
-        Step::new(Kind::Letter(*letter), argument)
+    // In each stage the drift comes last.
+    sorted.sort_by_key(|(index, kind, _)| (*index, *kind == Kind::Letter(DRIFT)));
+    let step = |(argument, (_, kind, _)): (usize, &(usize, Kind, Interval))| {
+        Step::new(*kind, argument)
     };
     let steps = sorted.iter().enumerate().map(step).collect();
     (

@@ -19,12 +19,16 @@ const MAX_COEFFICIENT: u32 = 1000;
 const TOLERANCE_PLACES: std::ops::RangeInclusive<u32> = 3..=10;
 
 /// A splitting: for `i = 1, …, n`, `p -= kick[i] h ∂U/∂q(q)`, then `q += drift[i] h ∂T/∂p(p)`.
+///
+/// With gradient kicks, for quadratic `T`, the first is `p += h (kick[i] f + 2 gradient[i] h² f′ M⁻¹ f)` with `f = −∂U/∂q`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Splitting {
     /// The coefficients of the kicks.
     pub kick: Vec<Printed>,
     /// The coefficients of the drifts, as many as kicks.
     pub drift: Vec<Printed>,
+    /// The weights of gradient kicks, as many as kicks; empty for a splitting without such kicks.
+    pub gradient: Vec<Printed>,
 }
 
 impl Splitting {
@@ -40,6 +44,7 @@ impl Splitting {
         let splitting = Splitting {
             kick: read(kick)?,
             drift: read(drift)?,
+            gradient: Vec::new(),
         };
         splitting.check()?;
         Ok(splitting)
@@ -51,6 +56,15 @@ impl Splitting {
                 kicks: self.kick.len(),
                 drifts: self.drift.len(),
             });
+        }
+        if !self.gradient.is_empty() {
+            if self.gradient.len() != self.kick.len() {
+                return Err(CertifyError::GradientLengths {
+                    kicks: self.kick.len(),
+                    weights: self.gradient.len(),
+                });
+            }
+            check(&self.gradient, Coefficient::Gradient)?;
         }
         check(&self.kick, Coefficient::Kick)?;
         check(&self.drift, Coefficient::Drift)

@@ -19,6 +19,8 @@ pub enum Coefficient {
     Kick(usize),
     /// `drift[i]`.
     Drift(usize),
+    /// `gradient[i]`, the weight of a gradient kick.
+    Gradient(usize),
     /// The weight of a basic method in a composition.
     Weight(usize),
     /// The weight of a basic method in the processor of a composition.
@@ -30,6 +32,7 @@ impl fmt::Display for Coefficient {
         match self {
             Coefficient::Kick(index) => write!(f, "kick[{index}]"),
             Coefficient::Drift(index) => write!(f, "drift[{index}]"),
+            Coefficient::Gradient(index) => write!(f, "gradient[{index}]"),
             Coefficient::Weight(index) => write!(f, "weight[{index}]"),
             Coefficient::Processor(index) => write!(f, "processor[{index}]"),
         }
@@ -122,6 +125,8 @@ pub struct Reading {
 #[derive(Clone, Copy)]
 struct Factor<'a> {
     kind: Kind,
+    /// The number of its flow: a gradient kick has two factors, which commute.
+    flow: usize,
     name: Coefficient,
     printed: &'a Printed,
 }
@@ -152,18 +157,24 @@ impl Factor<'_> {
 
 /// All ways to read a splitting, with the most structure first.
 pub fn readings(splitting: &Splitting) -> Vec<Reading> {
-    let mut factors = Vec::new();
+    let mut factors: Vec<Factor<'_>> = Vec::new();
     let mut zeros = Vec::new();
     for (index, (kick, drift)) in splitting.kick.iter().zip(&splitting.drift).enumerate() {
-        let both = [
-            (Kind::Letter(KICK), Coefficient::Kick(index), kick),
-            (Kind::Letter(DRIFT), Coefficient::Drift(index), drift),
-        ];
-        for (kind, name, printed) in both {
+        let kick = (Kind::Letter(KICK), Coefficient::Kick(index), kick);
+        let gradient = splitting.gradient.get(index);
+        let gradient =
+            gradient.map(|printed| (Kind::Gradient, Coefficient::Gradient(index), printed));
+        let drift = (Kind::Letter(DRIFT), Coefficient::Drift(index), drift);
+        for (kind, name, printed) in [kick].into_iter().chain(gradient).chain([drift]) {
             let zero = printed.value().is_zero();
             let list = if zero { &mut zeros } else { &mut factors };
+            let flow = list.last().map_or(0, |last: &Factor<'_>| {
+                let same = kind == Kind::Gradient && last.name == Coefficient::Kick(index);
+                last.flow + usize::from(!same)
+            });
             list.push(Factor {
                 kind,
+                flow,
                 name,
                 printed,
             });
@@ -186,6 +197,7 @@ pub fn composition_readings(weights: &[Printed]) -> Vec<Reading> {
         .enumerate()
         .map(|(index, printed)| Factor {
             kind: Kind::Base,
+            flow: index,
             name: Coefficient::Weight(index),
             printed,
         })
@@ -201,6 +213,7 @@ pub fn processed_readings(weights: &[Printed], processor: &Processor<Printed>) -
         for (index, printed) in processor.weights().iter().enumerate() {
             let factor = Factor {
                 kind: Kind::Base,
+                flow: index,
                 name: Coefficient::Processor(index),
                 printed,
             };
@@ -235,13 +248,24 @@ fn close(x: &BigRational, y: &BigRational) -> bool {
     (x - y).abs() <= ratio(1, 1000)
 }
 
+/// The factor of the same kind in the mirrored flow, with its index.
+fn partner<'f, 'a>(factors: &'f [Factor<'a>], index: usize) -> Option<(usize, &'f Factor<'a>)> {
+    let mirrored = factors.last()?.flow - factors[index].flow;
+    let mut all = factors.iter().enumerate();
+    all.find(|(_, other)| other.flow == mirrored && other.kind == factors[index].kind)
+}
+
 /// The readings in which each factor is a step: symmetric or not, with equal digits as one unknown or as several. Those
 /// with more structure come first.
 fn plain(factors: &[Factor<'_>], [symmetric, asymmetric]: [Structure; 2]) -> Vec<Reading> {
-    let partner = |index: usize| factors.len() - 1 - index;
-    let pairs = || (0..factors.len()).map(|i| (&factors[i], &factors[partner(i)]));
-    let palindrome = pairs().all(|(x, y)| x.kind == y.kind && close(x.value(), y.value()));
-    let exact = palindrome && pairs().all(|(x, y)| x.value() == y.value());
+    let pairs = || {
+        factors
+            .iter()
+            .enumerate()
+            .map(|(i, x)| (x, partner(factors, i)))
+    };
+    let palindrome = pairs().all(|(x, y)| y.is_some_and(|(_, y)| close(x.value(), y.value())));
+    let exact = palindrome && pairs().all(|(x, y)| y.is_some_and(|(_, y)| x.value() == y.value()));
     let mut readings: Vec<Reading> = Vec::new();
     for (structure, possible) in [(symmetric, palindrome), (asymmetric, !exact)] {
         for equal in [true, false] {
@@ -265,8 +289,10 @@ fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
         let same = |(kind, unknown): &(Kind, Unknown)| {
             *kind == factor.kind && &unknown.start == factor.value()
         };
-        let partner = factors.len() - 1 - index;
-        let known = if structure.symmetric() && partner < index {
+        let partner = partner(factors, index).filter(|_| structure.symmetric());
+        let known = if let Some((partner, _)) = partner
+            && partner < index
+        {
             Some(arguments[partner])
         } else if equal {
             unknowns.iter().position(same)
@@ -295,11 +321,14 @@ fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
 /// The readings as a composition of steps of Störmer–Verlet, `exp(w/2 B) exp(w A) exp(w/2 B)` or with the
 /// letters exchanged: the outer coefficients are the half sums of neighbouring inner ones.
 fn composition_of_verlet(factors: &[Factor<'_>]) -> Vec<Reading> {
-    let alternating = factors.windows(2).all(|pair| pair[0].kind != pair[1].kind);
+    let alternating = factors.windows(2).all(|pair| pair[0].kind != pair[1].kind)
+        && factors.iter().all(|factor| factor.kind != Kind::Gradient);
     if factors.len() < 3 || factors.len().is_multiple_of(2) || !alternating {
         return Vec::new();
     }
-    let inner: Vec<Factor<'_>> = factors.iter().skip(1).step_by(2).copied().collect();
+    let inner = factors.iter().skip(1).step_by(2).enumerate();
+    let inner = inner.map(|(flow, factor)| Factor { flow, ..*factor });
+    let inner: Vec<Factor<'_>> = inner.collect();
     // The inner neighbours of the outer coefficient with this index.
     let neighbours = |index: usize| index.saturating_sub(1)..(index + 1).min(inner.len());
     let half = ratio(1, 2);

@@ -7,10 +7,15 @@
 //! [u] = x^|u|/m!      (for a letter: if all letters of u are that letter, else 0 for m > 0),
 //! ```
 //!
+//! A gradient kick is `exp(xB) exp(yC)` with `C = [B, [A, B]] = 2BAB − ABB − BBA`, where `[B, C]` vanishes for quadratic `T`. In
+//! `exp(yC)` the coefficient of a word of `3m` letters is `yᵐ/m!` times the product of the coefficients of its threes in `C`. It is
+//! determined modulo the ideal of [`super::nystrom`] only, on which the linear forms of the conditions vanish.
+//!
 //! and that of a word `w` in the product of the steps is the sum over all ways to cut `w` into as many blocks,
 //! possibly empty, as there are steps. Prefixes of `w` in the product of the first `i` steps, and suffixes in the product
 //! of the others, are computed step by step. Together they give the derivative with respect to the argument of each step.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
@@ -18,6 +23,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::conditions::{Condition, Conditions};
+use super::lyndon::{DRIFT, KICK};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
 
@@ -67,6 +73,15 @@ pub enum Kind {
     Letter(u8),
     /// All letters: a basic method.
     Base,
+    /// `[B, [A, B]]`: what a gradient kick adds to a kick.
+    Gradient,
+}
+
+/// The coefficient of a block in a step with the argument `x`: `factor x^power/of!`.
+struct Block {
+    power: usize,
+    of: usize,
+    factor: i64,
 }
 
 /// The order conditions of a product of steps.
@@ -152,12 +167,44 @@ impl Powers {
     }
 }
 
+impl Block {
+    /// The coefficient, from the powers of the argument or their derivatives.
+    fn of<'p>(&self, powers: &'p [Vec<Interval>]) -> Cow<'p, Interval> {
+        let entry = &powers[self.power][self.of];
+        match self.factor {
+            1 => Cow::Borrowed(entry),
+            factor => Cow::Owned(entry.scale(&ratio(factor, 1))),
+        }
+    }
+}
+
 impl System {
-    /// The degree of a block in a step, if its coefficient is nonzero.
-    fn block(&self, step: Step, block: &[u8]) -> Option<usize> {
+    /// The coefficient of a block in a step, if it is nonzero.
+    fn block(&self, step: Step, block: &[u8]) -> Option<Block> {
+        let of = block.len();
         match step.kind {
-            Kind::Letter(own) => block.iter().all(|&l| l == own).then_some(block.len()),
-            Kind::Base => Some(self.conditions.alphabet().degree(block)),
+            Kind::Letter(own) => block.iter().all(|&l| l == own).then_some(Block {
+                power: of,
+                of,
+                factor: 1,
+            }),
+            Kind::Base => Some(Block {
+                power: self.conditions.alphabet().degree(block),
+                of,
+                factor: 1,
+            }),
+            Kind::Gradient => {
+                let threes = block.chunks(3).map(|three| match *three {
+                    [KICK, DRIFT, KICK] => Some(2),
+                    [DRIFT, KICK, KICK] | [KICK, KICK, DRIFT] => Some(-1),
+                    _ => None,
+                });
+                Some(Block {
+                    power: of / 3,
+                    of: of / 3,
+                    factor: threes.product::<Option<i64>>()?,
+                })
+            }
         }
     }
 
@@ -190,7 +237,10 @@ impl System {
             .map(|(word, wanted)| {
                 let mut terms = BTreeMap::new();
                 for step in &self.steps {
-                    if self.block(*step, word) == Some(1) {
+                    if self
+                        .block(*step, word)
+                        .is_some_and(|block| block.power == 1)
+                    {
                         let sign = if step.negative { -1 } else { 1 };
                         *terms.entry(step.argument).or_insert(0) += sign;
                     }
@@ -282,12 +332,15 @@ impl System {
             // From the end, so that the shorter prefixes do not include this step yet.
             for end in (1..=word.len()).rev() {
                 for start in (0..end).rev() {
-                    let Some(degree) = self.block(step, &word[start..end]) else {
+                    let Some(block) = self.block(step, &word[start..end]) else {
+                        if step.kind == Kind::Gradient {
+                            continue;
+                        }
                         break;
                     };
                     if !is_zero(&current[start]) {
-                        let entry = &powers.entries[degree][end - start];
-                        current[end] = step.add(&current[end], &current[start], entry, degree);
+                        let entry = block.of(&powers.entries);
+                        current[end] = step.add(&current[end], &current[start], &entry, block.power);
                     }
                 }
             }
@@ -309,19 +362,21 @@ impl System {
             for start in 0..word.len() {
                 let mut derivative = zero(bits);
                 for end in start + 1..=word.len() {
-                    let Some(degree) = self.block(step, &word[start..end]) else {
+                    let Some(block) = self.block(step, &word[start..end]) else {
+                        if step.kind == Kind::Gradient {
+                            continue;
+                        }
                         break;
                     };
                     if is_zero(&suffixes[end]) {
                         continue;
                     }
-                    let letters = end - start;
                     if column.is_some() {
-                        let entry = &own.derivatives[degree][letters];
-                        derivative = step.add(&derivative, &suffixes[end], entry, degree);
+                        let entry = block.of(&own.derivatives);
+                        derivative = step.add(&derivative, &suffixes[end], &entry, block.power);
                     }
-                    let entry = &own.entries[degree][letters];
-                    suffixes[start] = step.add(&suffixes[start], &suffixes[end], entry, degree);
+                    let entry = block.of(&own.entries);
+                    suffixes[start] = step.add(&suffixes[start], &suffixes[end], &entry, block.power);
                 }
                 if let Some(column) = column {
                     let prefix = &prefixes[index][start];
@@ -365,14 +420,17 @@ impl System {
             let x = &arguments[step.argument];
             for end in (1..=word.len()).rev() {
                 for start in (0..end).rev() {
-                    let Some(degree) = self.block(step, &word[start..end]) else {
+                    let Some(block) = self.block(step, &word[start..end]) else {
+                        if step.kind == Kind::Gradient {
+                            continue;
+                        }
                         break;
                     };
-                    let factorial: BigInt = (1..=end - start).fold(BigInt::one(), |n, k| n * k);
+                    let factorial: BigInt = (1..=block.of).fold(BigInt::one(), |n, k| n * k);
                     let x = if step.negative { -x } else { x.clone() };
-                    let power = num_traits::pow(x, degree);
-                    let block = power / BigRational::from_integer(factorial);
-                    let added = &current[start] * block;
+                    let power = num_traits::pow(x, block.power);
+                    let value = power * BigRational::new(block.factor.into(), factorial);
+                    let added = &current[start] * value;
                     current[end] += added;
                 }
             }

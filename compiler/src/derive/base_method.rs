@@ -21,7 +21,7 @@ use crate::evidence::Evidence;
 use crate::exact::Exact;
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
-use crate::order::{self, GivenOrder, OrderOptions, OrderReport};
+use crate::order::{self, GivenOrder, HamiltonianClass, OrderOptions, OrderReport};
 use crate::properties::{Property, SeparableProperties, symmetric};
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
@@ -45,6 +45,8 @@ struct Symmetry {
     exact: Arc<Exact>,
     general: Property,
     separable: Property,
+    /// The class of Hamiltonians for which the latter is known: with gradient kicks those with quadratic `T`.
+    class: HamiltonianClass,
 }
 
 /// The steps of a composition.
@@ -283,6 +285,12 @@ impl Base {
             ));
         }
         let symmetry = self.symmetry("a `claim`", definition)?;
+        if symmetry.class == HamiltonianClass::Nystrom {
+            return refused(format!(
+                "a `claim` takes a base for separable H, and {} has gradient kicks, which need quadratic T",
+                self.text
+            ));
+        }
         match symmetry.separable.evidence {
             Evidence::Proved => Ok(()),
             _ => refused(format!(
@@ -298,7 +306,11 @@ impl Base {
         let exact = self.method.exact();
         let exact = exact.map_err(|kind| at_base(kind.to_string()))?;
         let general = symmetric(&exact);
-        let separable = SeparableProperties::of(&exact, general.clone()).symmetric;
+        let SeparableProperties {
+            class,
+            symmetric: separable,
+            ..
+        } = SeparableProperties::of(&exact, general.clone());
         if !separable.holds {
             let witness = separable.witness.unwrap_or_default();
             return Err(at_base(format!(
@@ -310,6 +322,7 @@ impl Base {
             exact,
             general,
             separable,
+            class,
         })
     }
 }
@@ -435,7 +448,8 @@ impl Weights {
         // A symmetric method has an even order, and the scheme raises it by two.
         let given = base.method.given(&symmetry.exact);
         let orders_of_base = order::order(&symmetry.exact, &options, given.as_ref());
-        let start = orders_of_base.separable.order;
+        let class = symmetry.class;
+        let start = orders_of_base.class(class).order;
         let orders = (start + 2..=MAX_ORDER).step_by(2);
         let wanted = orders.clone().find(|order| written == (*order).into());
         let Some(wanted) = wanted else {
@@ -472,14 +486,18 @@ impl Symmetry {
     /// The order of a named composition by the theorem of [`GivenOrder`], if the order and the symmetry of its base are
     /// proved or certified. Each level of the composition has its own root, with which its two equations are identities.
     fn raised(&self, orders: &OrderReport, wanted: usize) -> Option<GivenOrder> {
-        let evidence = self.separable.evidence.and(orders.separable.evidence);
+        let order = orders.class(self.class);
+        let evidence = self.separable.evidence.and(order.evidence);
         let general = &orders.general;
         // The fractions cancel the leading error of a base of this order for every Hamiltonian.
         let for_all = self.general.holds
-            && general.order == orders.separable.order
+            && general.order == order.order
             && self.general.evidence.and(general.evidence) == evidence;
         matches!(evidence, Evidence::Proved | Evidence::Certified).then_some(GivenOrder {
-            claim: Claim::Separable(wanted),
+            claim: match self.class {
+                HamiltonianClass::Nystrom => Claim::Nystrom(wanted),
+                _ => Claim::Separable(wanted),
+            },
             general: if for_all { wanted } else { 1 },
             evidence,
             symmetric: false,

@@ -3,7 +3,7 @@
 use super::claim;
 use super::reading::{Errors, misfit};
 use super::sequence::{Factor, Sequence, Substep};
-use super::splitting::{Flow, Lists};
+use super::splitting::{Flow, Lists, Written};
 use crate::algebra::Real;
 use crate::certify::{Certificate, Claim, Coefficient, Printed, Splitting, certify};
 use crate::definition::{Definition, Key};
@@ -35,13 +35,21 @@ impl Certified {
         let certificate = errors.note(certificate)?;
         // The flows of a mirrored list come again after the written ones.
         let (mut kicks, mut drifts) = (0.., 0..);
-        let written = flows.into_iter().filter_map(|(flow, name)| match flow {
-            Flow::Kick => Some((Key::Kick, kicks.next()?, name)),
-            Flow::Drift => Some((Key::Drift, drifts.next()?, name)),
+        let written = flows.into_iter().flat_map(|named| match named.flow {
+            Flow::Kick => {
+                let index = kicks.next().unwrap_or(usize::MAX);
+                let gradient = named.gradient.map(|name| (Key::Gradient, index, name));
+                [Some((Key::Kick, index, named.fraction)), gradient]
+            }
+            Flow::Drift => {
+                let index = drifts.next().unwrap_or(usize::MAX);
+                [Some((Key::Drift, index, named.fraction)), None]
+            }
         });
+        let written = written.flatten();
         let count = |key: Key| match key {
-            Key::Kick => printed.list(Flow::Kick).len(),
-            _ => printed.list(Flow::Drift).len(),
+            Key::Drift => printed.list(Flow::Drift).len(),
+            _ => printed.list(Flow::Kick).len(),
         };
         let written = written.filter(|(key, index, _)| *index < count(*key));
         let wrong_digits = claim::wrong_digits(definition, &certificate, written);
@@ -66,7 +74,14 @@ impl Certified {
     pub fn sequence(&self) -> Sequence {
         let mut factors = Factors::new(self.certificate.clone());
         let (_, flows) = whole(&self.printed);
-        let substep = |(flow, name)| Substep::of(flow, factors.get(name));
+        let substep = |named: Named| {
+            let fraction = factors.get(named.fraction);
+            Substep::new(
+                named.flow,
+                fraction,
+                named.gradient.map(|name| factors.get(name)),
+            )
+        };
         Sequence::new(
             self.printed.first(),
             flows.into_iter().map(substep).collect(),
@@ -86,28 +101,52 @@ impl Certified {
     }
 }
 
-/// The splitting in which each kick comes before the drift of the same index, and the names of the written flows
-/// in it.
-fn whole(printed: &Lists<Printed>) -> (Splitting, Vec<(Flow, Coefficient)>) {
-    let (mut kick, mut drift): (Vec<Printed>, Vec<Printed>) = (Vec::new(), Vec::new());
+/// A written flow with the names of its coefficients.
+struct Named {
+    flow: Flow,
+    fraction: Coefficient,
+    /// The weight of a gradient kick.
+    gradient: Option<Coefficient>,
+}
+
+/// The splitting in which each kick comes before the drift of the same index, and the written flows with their names in it.
+fn whole(printed: &Lists<Printed>) -> (Splitting, Vec<Named>) {
+    let [mut kick, mut drift, mut gradient]: [Vec<Printed>; 3] = Default::default();
     let mut names = Vec::new();
-    for (flow, printed) in printed.flows() {
-        match flow {
+    for written in printed.flows() {
+        let Written { flow, fraction, .. } = written;
+        let of_gradient = Coefficient::Gradient(kick.len());
+        let name = match flow {
             Flow::Kick => {
-                names.push((flow, Coefficient::Kick(kick.len())));
-                kick.push(printed.clone());
+                kick.push(fraction.clone());
+                gradient.push(written.gradient.cloned().unwrap_or_else(Printed::zero));
+                Coefficient::Kick(kick.len() - 1)
             }
             Flow::Drift => {
                 if kick.len() == drift.len() {
                     kick.push(Printed::zero());
+                    gradient.push(Printed::zero());
                 }
-                names.push((flow, Coefficient::Drift(drift.len())));
-                drift.push(printed.clone());
+                drift.push(fraction.clone());
+                Coefficient::Drift(drift.len() - 1)
             }
-        }
+        };
+        names.push(Named {
+            flow,
+            fraction: name,
+            gradient: written.gradient.map(|_| of_gradient),
+        });
     }
     drift.resize_with(kick.len(), Printed::zero);
-    (Splitting { kick, drift }, names)
+    if printed.gradient().is_none() {
+        gradient.clear();
+    }
+    let splitting = Splitting {
+        kick,
+        drift,
+        gradient,
+    };
+    (splitting, names)
 }
 
 /// The coefficients of a certified method. Coefficients that are equal by structure share one expression.

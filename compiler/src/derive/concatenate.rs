@@ -24,6 +24,12 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
             message: "a composition is made of one method or more".to_owned(),
         });
     }
+    if parts.iter().any(|(_, exact)| exact.has_gradient_kicks()) {
+        let message = "a splitting with gradient kicks is composed with splittings only";
+        return Err(ErrorKind::Definition {
+            message: message.to_owned(),
+        });
+    }
     // Any algebra holds rational multiples, the strongest one that there is among them.
     if let [(fraction, exact)] = parts
         && let Some(fraction) = fraction.as_rational()
@@ -127,6 +133,7 @@ impl<T> Coefficients<T> {
             b_tilde: self.b_tilde.unwrap_or_else(|| self.b.clone()),
             a: self.a,
             b: self.b,
+            gradient: None,
         }
     }
 }
@@ -271,5 +278,6 @@ fn join<F: Field + Clone>(
         algebra: Arc::new(Dense::new(field.clone(), b.len())),
         b,
         b_tilde,
+        gradient: None,
     })
 }

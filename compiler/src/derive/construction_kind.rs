@@ -42,7 +42,7 @@ impl Kind {
         match self {
             Kind::Derived => &[Key::Basis, Key::Nodes, Key::Quadrature],
             Kind::Given => &[Key::A, Key::B, Key::ATilde, Key::BTilde],
-            Kind::Splitting => &[Key::Kick, Key::Drift],
+            Kind::Splitting => &[Key::Kick, Key::Drift, Key::Gradient],
             Kind::Certified => &[Key::Claim],
             Kind::Based => &[Key::Base],
             Kind::Composition => &[Key::Compose],
@@ -54,7 +54,9 @@ impl Kind {
         match key {
             Key::Exchange | Key::Adjoint => true,
             Key::Weights => matches!(self, Kind::Derived | Kind::Based),
-            Key::Kick | Key::Drift => matches!(self, Kind::Splitting | Kind::Certified),
+            Key::Kick | Key::Drift | Key::Gradient => {
+                matches!(self, Kind::Splitting | Kind::Certified)
+            }
             Key::First => matches!(self, Kind::Splitting | Kind::Certified),
             Key::Symmetric => matches!(self, Kind::Splitting | Kind::Certified | Kind::Based),
             Key::Claim => matches!(self, Kind::Certified | Kind::Based),

@@ -197,6 +197,13 @@ impl Problem {
             Kind::Given => read_given(definition, limits, &mut errors),
             Kind::Derived => read_derived(definition, limits, &mut errors),
         };
+        if exchange
+            && let Some(sequence) = construction.as_ref().and_then(Construction::sequence)
+            && sequence.has_gradient_kicks()
+        {
+            let message = "`exchange` would make drifts of gradient kicks, which change momenta only: leave it out";
+            errors.push(misfit_at(definition, Key::Exchange, message.to_owned()));
+        }
         match construction {
             Some(construction) if errors.0.is_empty() => Ok(Problem {
                 exchange,
@@ -444,12 +451,22 @@ impl Problem {
                 known.get_or_init(|| exact)
             }
         };
+        if self.adjoint
+            && exact.has_gradient_kicks()
+            && let Some(sequence) = self.sequence()
+        {
+            // Such kicks need the form of a splitting, which the adjoint with the same stages does not have.
+            return sequence.exact().map(Arc::new);
+        }
         Ok(self.of_construction(exact))
     }
 
     /// The coefficients, if they have been derived.
     pub fn known_exact(&self) -> Option<Arc<Exact>> {
         let exact = self.construction.exact.get()?;
+        if self.adjoint && exact.has_gradient_kicks() {
+            return None;
+        }
         Some(self.of_construction(exact))
     }
 

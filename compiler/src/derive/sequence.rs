@@ -1,4 +1,4 @@
-//! Sequences of kicks and drifts as partitioned Runge–Kutta methods.
+//! Sequences of kicks and drifts as partitioned Runge–Kutta methods, perhaps with gradient kicks.
 
 use std::collections::HashMap;
 
@@ -18,6 +18,8 @@ pub struct Substep {
     flow: Flow,
     /// The factors of the fraction of the step.
     factors: Vec<Factor>,
+    /// The factors of the weight of a gradient kick.
+    gradient: Option<Vec<Factor>>,
 }
 
 /// A factor of a fraction of the step.
@@ -52,6 +54,10 @@ impl Factor {
         })
     }
 
+    fn is_zero(&self) -> bool {
+        self.constant().is_some_and(Constant::is_trivially_zero)
+    }
+
     fn element<F: Field>(&self, field: &F) -> Option<F::Element> {
         match self {
             Factor::Constant(constant) => field.constant(constant),
@@ -61,17 +67,27 @@ impl Factor {
 }
 
 impl Substep {
-    /// This fraction of the step.
-    pub fn new(flow: Flow, fraction: Constant) -> Self {
-        Substep::of(flow, Factor::Constant(fraction))
-    }
-
-    /// A fraction of the step that may be known by enclosures only.
-    pub fn of(flow: Flow, fraction: Factor) -> Self {
+    /// This fraction of the step, with the weight of a gradient kick.
+    pub fn new(flow: Flow, fraction: Factor, gradient: Option<Factor>) -> Self {
+        let gradient = gradient.filter(|weight| !weight.is_zero());
         Substep {
             flow,
             factors: vec![fraction],
+            gradient: gradient.map(|weight| vec![weight]),
         }
+    }
+
+    /// The same in a step with this fraction of the whole one: the weight of a gradient kick belongs to `h³`.
+    fn scale(&mut self, fraction: &Factor) {
+        self.factors.push(fraction.clone());
+        if let Some(gradient) = &mut self.gradient {
+            gradient.extend(std::iter::repeat_n(fraction.clone(), 3));
+        }
+    }
+
+    /// All factors.
+    fn all_factors(&self) -> impl Iterator<Item = &Factor> {
+        self.factors.iter().chain(self.gradient.iter().flatten())
     }
 }
 
@@ -87,8 +103,9 @@ pub struct Sequence {
 impl Sequence {
     /// A sequence of these flows; flows of zero duration are left out.
     pub fn new(first: Flow, mut substeps: Vec<Substep>) -> Self {
-        let zero = |factor: &Factor| factor.constant().is_some_and(Constant::is_trivially_zero);
-        substeps.retain(|substep| !substep.factors.iter().any(zero));
+        substeps.retain(|substep| {
+            substep.gradient.is_some() || !substep.factors.iter().any(Factor::is_zero)
+        });
         Sequence { first, substeps }
     }
 
@@ -99,7 +116,7 @@ impl Sequence {
         for (fraction, part) in parts {
             let mut part = part?;
             for substep in &mut part.substeps {
-                substep.factors.push(fraction.clone());
+                substep.scale(&fraction);
             }
             match &mut all {
                 Some(all) => all.substeps.append(&mut part.substeps),
@@ -109,6 +126,13 @@ impl Sequence {
         all
     }
 
+    /// Whether there are gradient kicks.
+    pub fn has_gradient_kicks(&self) -> bool {
+        self.substeps
+            .iter()
+            .any(|substep| substep.gradient.is_some())
+    }
+
     /// The sequence of the adjoint method: each flow is its own adjoint, so only the order is reversed.
     #[must_use]
     pub fn reversed(mut self) -> Self {
@@ -116,7 +140,7 @@ impl Sequence {
         self
     }
 
-    /// The sequence with positions and momenta exchanged.
+    /// The sequence with positions and momenta exchanged, for one without gradient kicks.
     #[must_use]
     pub fn exchanged(mut self) -> Self {
         self.first = self.first.other();
@@ -140,7 +164,7 @@ impl Sequence {
     /// # Errors
     /// None, except for a constant outside the field constructed for it.
     pub fn exact(&self) -> Result<Exact, ErrorKind> {
-        let factors = self.substeps.iter().flat_map(|substep| &substep.factors);
+        let factors = self.substeps.iter().flat_map(Substep::all_factors);
         let constants: Option<Vec<&Constant>> = factors.map(Factor::constant).collect();
         let exact = match constants.and_then(Constants::containing) {
             Some(field) => self.pair(&field).map(Exact::Field),
@@ -159,54 +183,88 @@ impl Sequence {
     fn pair<F: Field + Clone>(&self, field: &F) -> Option<Partitioned<Dense<F>>> {
         let flows = self.merged(field)?;
         let zero = field.rational(&BigRational::default());
-        let start = flows.first().map_or(self.first, |(flow, _)| *flow);
+        let start = flows.first().map_or(self.first, |merged| merged.flow);
         let length = |layout: Flow| (flows.len() + usize::from(layout != start)).div_ceil(2);
         let layout = match length(self.first.other()) < length(self.first) {
             true => self.first.other(),
             false => self.first,
         };
-        let mut values: Vec<F::Element> = flows.into_iter().map(|(_, value)| value).collect();
+        let mut values: Vec<F::Element> =
+            flows.iter().map(|merged| merged.fraction.clone()).collect();
+        let mut weights: Vec<Option<F::Element>> =
+            flows.into_iter().map(|merged| merged.gradient).collect();
         if start != layout {
             values.insert(0, zero.clone());
+            weights.insert(0, None);
         }
         // The identity step also has a stage.
         if values.len() % 2 == 1 || values.is_empty() {
             values.resize(values.len().max(1).next_multiple_of(2), zero.clone());
         }
+        weights.resize(values.len(), None);
+        let gradient = weights.iter().any(Option::is_some).then(|| {
+            let kicks = weights.into_iter().skip(usize::from(layout == Flow::Drift));
+            let weight = |weight: Option<F::Element>| weight.unwrap_or_else(|| zero.clone());
+            kicks.step_by(2).map(weight).collect()
+        });
         let half = |offset: usize| -> Vec<F::Element> {
             values.iter().skip(offset).step_by(2).cloned().collect()
         };
         let (first, second) = (half(0), half(1));
         let field = field.clone();
-        Some(match layout {
+        let pair = match layout {
             Flow::Kick => {
                 Partitioned::of_splitting(field, LowerTriangular::KicksFirst, second, first)
             }
             Flow::Drift => {
                 Partitioned::of_splitting(field, LowerTriangular::DriftsFirst, first, second)
             }
-        })
+        };
+        Some(Partitioned { gradient, ..pair })
     }
 
     /// Alternating flows: neighbours of the same kind are merged, and exact zeros are removed. Equal fractions are
     /// the same element, so that a palindromic sequence is recognised.
-    fn merged<F: Field>(&self, field: &F) -> Option<Vec<(Flow, F::Element)>> {
+    fn merged<F: Field>(&self, field: &F) -> Option<Vec<Merged<F::Element>>> {
+        struct Products {
+            flow: Flow,
+            fraction: Vec<usize>,
+            gradient: Vec<usize>,
+        }
         let mut elements = Elements::new(field);
-        let mut merged: Vec<(Flow, Vec<usize>)> = Vec::new();
-        for Substep { flow, factors } in &self.substeps {
-            let product = elements.product(factors)?;
+        let mut merged: Vec<Products> = Vec::new();
+        for substep in &self.substeps {
+            let fraction = elements.product(&substep.factors)?;
+            let gradient = match &substep.gradient {
+                Some(factors) => Some(elements.product(factors)?),
+                None => None,
+            };
             match merged.last_mut() {
-                Some((last, products)) if last == flow => products.push(product),
-                _ => merged.push((*flow, vec![product])),
+                Some(last) if last.flow == substep.flow => {
+                    last.fraction.push(fraction);
+                    last.gradient.extend(gradient);
+                }
+                _ => merged.push(Products {
+                    flow: substep.flow,
+                    fraction: vec![fraction],
+                    gradient: gradient.into_iter().collect(),
+                }),
             }
-            if let Some((_, products)) = merged.last_mut()
-                && field.zero(elements.sum(products)) == Zero::Yes
+            if let Some(last) = merged.last_mut()
+                && field.zero(elements.sum(&mut last.fraction)) == Zero::Yes
+                && field.zero(elements.sum(&mut last.gradient)) == Zero::Yes
             {
                 merged.pop();
             }
         }
-        let value =
-            |(flow, mut products): (Flow, Vec<usize>)| (flow, elements.sum(&mut products).clone());
+        let value = |mut products: Products| {
+            let gradient = elements.sum(&mut products.gradient).clone();
+            Merged {
+                flow: products.flow,
+                fraction: elements.sum(&mut products.fraction).clone(),
+                gradient: (field.zero(&gradient) != Zero::Yes).then_some(gradient),
+            }
+        };
         Some(merged.into_iter().map(value).collect())
     }
 
@@ -216,6 +274,14 @@ impl Sequence {
         flows.dedup();
         flows
     }
+}
+
+/// Flows of one kind after one another.
+struct Merged<E> {
+    flow: Flow,
+    fraction: E,
+    /// The weight of a gradient kick.
+    gradient: Option<E>,
 }
 
 /// Elements of a field for fractions of the step, shared by all fractions that are written alike.

@@ -7,16 +7,40 @@
 //! kick    p −= kick_i h ∂U/∂q(q)
 //! drift   q += drift_i h ∂T/∂p(p)
 //! ```
+//!
+//! With quadratic `T = pᵀM⁻¹p/2` the potential of a kick may contain `∇U·M⁻¹∇U`, the function of `[B, [A, B]]` (Suzuki 1995; Chin
+//! 1997). With the force `f = −∂U/∂q` and its derivative `f′` such a gradient kick is
+//!
+//! ```text
+//! kick    p += h (kick_i f + 2 g_i h² f′ M⁻¹ f),    the flow of kick_i U − g_i h² ∇U·M⁻¹∇U
+//! ```
 
 use super::fractions::off;
 use super::reading::{Errors, misfit, misfit_at, read_vector, switch};
-use super::sequence::{Sequence, Substep};
+use super::sequence::{Factor, Sequence, Substep};
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::limits::Limits;
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
+
+/// A flow of a splitting as written.
+pub struct Written<'a, T> {
+    pub flow: Flow,
+    /// The fraction of the step.
+    pub fraction: &'a T,
+    /// The weight of a gradient kick.
+    pub gradient: Option<&'a T>,
+}
+
+impl<T> Clone for Written<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Written<'_, T> {}
 
 /// The flow of one part of `H = T(p) + U(q)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +76,8 @@ pub type Splitting = Lists<Constant>;
 pub struct Lists<T> {
     kick: Vec<T>,
     drift: Vec<T>,
+    /// A weight for each kick.
+    gradient: Option<Vec<T>>,
     /// The flow that comes first of the two with the same index.
     first: Flow,
     /// Whether the lists are the first half of a palindromic sequence.
@@ -83,14 +109,25 @@ impl<T> Lists<T> {
             }
         };
         let (kick, drift) = (list(Flow::Kick), list(Flow::Drift));
+        let gradient = definition.get(Key::Gradient);
+        let gradient = gradient.map(|text| errors.note(read(Key::Gradient, text)));
         let lists = Lists {
             kick: kick?,
             drift: drift?,
+            gradient: match gradient {
+                Some(read) => Some(read?),
+                None => None,
+            },
             first: first?,
             symmetric: symmetric?,
         };
         errors.note(lists.check_lengths(definition, limits))?;
         Some(lists)
+    }
+
+    /// The weights of gradient kicks, as written.
+    pub fn gradient(&self) -> Option<&[T]> {
+        self.gradient.as_deref()
     }
 
     /// The list of a flow, as written.
@@ -122,6 +159,17 @@ impl<T> Lists<T> {
             );
             return Err(misfit_at(definition, second.key(), message));
         }
+        if let Some(gradient) = self.gradient.as_ref().map(Vec::len)
+            && gradient != self.kick.len()
+        {
+            let message = format!(
+                "{} kick{} and {gradient} weight{} of gradient kicks: one for each kick; write 0 where there is none",
+                self.kick.len(),
+                plural(self.kick.len()),
+                plural(gradient),
+            );
+            return Err(misfit_at(definition, Key::Gradient, message));
+        }
         let stages = if self.symmetric { n + m } else { n };
         check_stages(&stages.into(), limits)
             .map(|_| ())
@@ -134,12 +182,19 @@ impl<T> Lists<T> {
     }
 
     /// Kicks and drifts in the order of the step.
-    pub fn flows(&self) -> Vec<(Flow, &T)> {
+    pub fn flows(&self) -> Vec<Written<'_, T>> {
         let second = self.first.other();
         let mut flows = Vec::new();
         for i in 0..self.list(self.first).len() {
-            let both = [self.first, second];
-            flows.extend(both.map(|flow| Some((flow, self.list(flow).get(i)?))));
+            let written = |flow: Flow| {
+                let gradient = self.gradient.as_ref().filter(|_| flow == Flow::Kick);
+                Some(Written {
+                    flow,
+                    fraction: self.list(flow).get(i)?,
+                    gradient: gradient.and_then(|all| all.get(i)),
+                })
+            };
+            flows.extend([self.first, second].map(written));
         }
         let mut flows: Vec<_> = flows.into_iter().flatten().collect();
         if self.symmetric {
@@ -165,6 +220,9 @@ impl<T> Lists<T> {
             (Key::Kick, list(&self.kick)),
             (Key::Drift, list(&self.drift)),
         ];
+        if let Some(gradient) = &self.gradient {
+            parts.push((Key::Gradient, list(gradient)));
+        }
         if self.first == Flow::Drift {
             parts.push((Key::First, Key::Drift.name().to_owned()));
         }
@@ -202,8 +260,8 @@ impl Splitting {
     fn check_sums(&self, wanted: u8, of: &[Flow], definition: &Definition) -> Result<(), Error> {
         let flows = self.flows();
         for &flow in of {
-            let values = flows.iter().filter(|(kind, _)| *kind == flow);
-            if let Some(sum) = off(wanted, values.map(|(_, value)| *value)) {
+            let values = flows.iter().filter(|written| written.flow == flow);
+            if let Some(sum) = off(wanted, values.map(|written| written.fraction)) {
                 let mirrored = if self.symmetric { ", mirrored," } else { "" };
                 let message = format!(
                     "the {}s{mirrored} sum to {sum}, but must sum to {wanted}; give exact numbers, one of them as {wanted} minus the others",
@@ -217,7 +275,13 @@ impl Splitting {
 
     /// The sequence of kicks and drifts of the step.
     pub fn sequence(&self) -> Sequence {
-        let substep = |(flow, value): (Flow, &Constant)| Substep::new(flow, value.clone());
+        let substep = |written: Written<'_, Constant>| {
+            Substep::new(
+                written.flow,
+                Factor::Constant(written.fraction.clone()),
+                written.gradient.cloned().map(Factor::Constant),
+            )
+        };
         Sequence::new(self.first, self.flows().into_iter().map(substep).collect())
     }
 }

@@ -207,6 +207,7 @@ fn given_in<F: Field + Clone>(
             b_tilde: vector(b_tilde)?,
             a,
             b,
+            gradient: None,
         }),
     }
 }

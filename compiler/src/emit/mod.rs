@@ -264,7 +264,14 @@ fn constants(
             or_same(same.0, "C", literal::array(&values.c_tilde)),
         ),
     ];
-    quote!(#(#constants)*)
+    let gradient = (!values.gradient.is_empty()).then(|| {
+        vector(
+            "GRADIENT",
+            " g_j: the weights of the gradient kicks. Correctly rounded.",
+            literal::array(&values.gradient),
+        )
+    });
+    quote!(#(#constants)* #gradient)
 }
 
 /// The coefficients in the form that the runtime takes.
@@ -323,10 +330,16 @@ fn coefficients(
     } else {
         constants.push(vector(&b_tilde, &numbers.b_tilde));
     }
+    let mut coefficients =
+        quote!(emitted::Coefficients::new([#a, #a_tilde], [#b, #b_tilde], [#c, #c_tilde]));
+    if !numbers.gradient.is_empty() {
+        let gradient = literal::coefficients(&numbers.gradient);
+        coefficients = quote!(emitted::Coefficients { gradient: &#gradient, ..#coefficients });
+    }
     quote! {
         const COEFFICIENTS: emitted::Coefficients = {
             #(#constants)*
-            emitted::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
+            #coefficients
         };
     }
 }

@@ -54,6 +54,15 @@ impl Rounded {
         }
     }
 
+    /// Twice the number, exactly.
+    pub(super) fn twice(self) -> Self {
+        Rounded {
+            double: 2.0 * self.double,
+            low: 2.0 * self.low,
+            single: 2.0 * self.single,
+        }
+    }
+
     /// 1 minus the number, if that is exact in doubles: from 1/2 to 2⁵³. For singles it is exact up to 2²⁴.
     fn complement(self) -> Option<Self> {
         let exact = (0.5..9_007_199_254_740_992.0).contains(&self.double);

@@ -109,24 +109,27 @@ pub(super) fn sections(
     [("order", order), ("stability", stability)]
 }
 
-/// Properties that hold for separable Hamiltonians and are not known to hold for all: their names in files and for people.
+/// Properties that hold for separable Hamiltonians, or with gradient kicks for those with quadratic `T`, and are not known to hold for all:
+/// their names in files and for people.
 pub fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
     let properties = tableau.properties();
     if properties.symplectic.holds && properties.symmetric.holds {
         return Vec::new();
     }
     let separable = tableau.separable_properties();
-    let both = [
-        (
+    let [symplectic, symmetric] = match separable.class {
+        HamiltonianClass::Nystrom => [
+            ("symplectic_nystrom", "symplectic(nystrom)"),
+            ("symmetric_nystrom", "symmetric(nystrom)"),
+        ],
+        _ => [
             ("symplectic_separable", "symplectic(separable)"),
-            &properties.symplectic,
-            separable.symplectic,
-        ),
-        (
             ("symmetric_separable", "symmetric(separable)"),
-            &properties.symmetric,
-            separable.symmetric,
-        ),
+        ],
+    };
+    let both = [
+        (symplectic, &properties.symplectic, separable.symplectic),
+        (symmetric, &properties.symmetric, separable.symmetric),
     ];
     let only = both
         .into_iter()

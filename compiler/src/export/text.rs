@@ -63,6 +63,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
             &cells.a_tilde,
             &cells.b_tilde,
         );
+        let gradient = &cells.gradient;
         let widest = |lines: &[String]| lines.iter().map(|l| width(l)).max().unwrap_or(0);
         if widest(&positions) + GAP.len() + widest(&momenta) <= WIDEST {
             let to = widest(&positions);
@@ -75,6 +76,12 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
             push_lines(&mut text, &positions);
             text.push('\n');
             push_lines(&mut text, &momenta);
+        }
+        if !gradient.is_empty() {
+            let weights = gradient.join(", ");
+            text.push_str(&format!(
+                "\ng = {weights}: p += h (b̃_i f + 2 g_i h² f′ M⁻¹ f)\n"
+            ));
         }
     }
     finished(text, tableau, rounded.then_some(digits))
@@ -137,15 +144,19 @@ fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
 /// The flows of a splitting, one line per stage, in place of the matrices that the weights determine.
 fn flows(cells: &Coefficients<String>, lower_triangular: LowerTriangular) -> Vec<String> {
     let (kick, drift) = (("kick b̃", &cells.b_tilde), ("drift b", &cells.b));
-    let both = match lower_triangular {
-        LowerTriangular::KicksFirst => [kick, drift],
-        LowerTriangular::DriftsFirst => [drift, kick],
+    let mut columns = match lower_triangular {
+        LowerTriangular::KicksFirst => vec![kick, drift],
+        LowerTriangular::DriftsFirst => vec![drift, kick],
     };
+    if !cells.gradient.is_empty() {
+        columns.push(("gradient g", &cells.gradient));
+    }
     let mut rows = vec![vec!["i".to_owned()]];
-    rows[0].extend(both.map(|(name, _)| name.to_owned()));
-    let [(_, first), (_, second)] = both;
-    let stages = first.iter().zip(second).enumerate();
-    rows.extend(stages.map(|(i, (x, y))| vec![(i + 1).to_string(), x.clone(), y.clone()]));
+    rows[0].extend(columns.iter().map(|(name, _)| (*name).to_owned()));
+    rows.extend((0..cells.b.len()).map(|i| {
+        let cells = columns.iter().map(|(_, cells)| cells[i].clone());
+        std::iter::once((i + 1).to_string()).chain(cells).collect()
+    }));
     let columns = widths(&rows);
     let line = |row: &Vec<String>| {
         let cells = row.iter().zip(&columns);

@@ -323,6 +323,7 @@ impl Fitted {
             b,
             a,
             a_tilde,
+            gradient: Vec::new(),
         })
     }
 

@@ -123,6 +123,9 @@ pub(crate) fn order_of_pair<A: StageAlgebra>(
     // It remains to refute the next order, for which enclosures with few bits suffice.
     let enclosed = given.map(|_| pair.enclosed(BITS));
     let class = |class| {
+        if pair.gradient.is_some() && class != HamiltonianClass::Nystrom {
+            return ClassOrder::none();
+        }
         let known = given.map_or_else(|| known.clone(), |given| known.with(given, class));
         let refuted = enclosed
             .as_ref()

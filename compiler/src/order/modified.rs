@@ -15,7 +15,7 @@ use super::tree::{BicolouredTree, Colour};
 use super::weights::MAX_ORDER;
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::rounding::Decimal;
-use crate::partitioned::Partitioned;
+use crate::partitioned::{LowerTriangular, Partitioned};
 
 /// One term `h^(|τ|−1)/σ(τ) β(τ) F(τ)` of the modified equation, whose exact flow is the method.
 ///
@@ -50,16 +50,21 @@ pub struct ModifiedTerm {
     pub decimal: Decimal,
 }
 
-/// The coefficients of the modified equation for the trees of a class up to an order.
+/// The coefficients of the modified equation for the trees of a class up to an order. With gradient kicks there is none except for
+/// quadratic `T`.
 pub(crate) fn modified_equation<A: StageAlgebra>(
     pair: &Partitioned<A>,
     class: HamiltonianClass,
     order: usize,
 ) -> Vec<ModifiedTerm> {
+    if pair.gradient.is_some() && class != HamiltonianClass::Nystrom {
+        return Vec::new();
+    }
     let algebra = &*pair.algebra;
     let trees = Trees::up_to(TreeRule::Class(class), order.min(MAX_ORDER));
     let mut series = Series {
         pair,
+        lower_triangular: pair.lower_triangular(),
         ones: algebra.outer(
             &algebra.constant(&BigRational::one()),
             &algebra.constant(&BigRational::one()),
@@ -89,6 +94,7 @@ pub(crate) fn modified_equation<A: StageAlgebra>(
 /// The coefficients so far. Numbers are vectors with the same value at every stage, which every algebra has.
 struct Series<'a, A: StageAlgebra> {
     pair: &'a Partitioned<A>,
+    lower_triangular: Option<LowerTriangular>,
     /// The matrix of ones, which sums a vector.
     ones: A::Matrix,
     /// `Φ_i` of the trees so far.
@@ -133,13 +139,40 @@ impl<A: StageAlgebra> Series<'_, A> {
 
     /// The elementary weight `φ`.
     fn weight(&mut self, tree: &BicolouredTree) -> A::Vector {
+        let weighted = self.weighted(tree);
+        self.pair.algebra.apply(&self.ones, &weighted)
+    }
+
+    /// `b_i Φ_i`, with what gradient kicks add: see [`Weights`](super::weights::Weights).
+    fn weighted(&mut self, tree: &BicolouredTree) -> A::Vector {
         let stages = self.stages(tree);
-        let weights = match tree.colour() {
-            Colour::Q => &self.pair.b,
-            Colour::P => &self.pair.b_tilde,
+        let pair = self.pair;
+        let algebra = &*pair.algebra;
+        let Some(gradient) = pair
+            .gradient
+            .as_ref()
+            .filter(|_| tree.colour() == Colour::P)
+        else {
+            let weights = match tree.colour() {
+                Colour::Q => &pair.b,
+                Colour::P => &pair.b_tilde,
+            };
+            return algebra.multiply(weights, &stages);
         };
-        let algebra = &*self.pair.algebra;
-        algebra.apply(&self.ones, &algebra.multiply(weights, &stages))
+        let mut weighted = algebra.multiply(&pair.b_tilde, &stages);
+        for (index, child) in tree.children().iter().enumerate() {
+            let [force] = child.children() else {
+                continue;
+            };
+            // The children of the force are at the same stage as the other children.
+            let mut children = tree.children().to_vec();
+            children.remove(index);
+            children.extend_from_slice(force.children());
+            let product = self.stages(&BicolouredTree::new(Colour::P, children));
+            let added = algebra.multiply(gradient, &product);
+            weighted = algebra.add(&algebra.add(&weighted, &added), &added);
+        }
+        weighted
     }
 
     fn stages(&mut self, tree: &BicolouredTree) -> A::Vector {
@@ -153,7 +186,15 @@ impl<A: StageAlgebra> Series<'_, A> {
                 Colour::Q => &self.pair.a,
                 Colour::P => &self.pair.a_tilde,
             };
-            let applied = algebra.apply(matrix, &self.stages(child));
+            // With gradient kicks the method is a splitting, whose matrices sum weighted terms.
+            let sums = self.pair.gradient.as_ref().and_then(|_| {
+                let own = match child.colour() {
+                    Colour::Q => LowerTriangular::has_own_drift,
+                    Colour::P => LowerTriangular::has_own_kick,
+                };
+                algebra.partial_sums(&self.weighted(child), own(self.lower_triangular?))
+            });
+            let applied = sums.unwrap_or_else(|| algebra.apply(matrix, &self.stages(child)));
             algebra.multiply(&product, &applied)
         });
         self.stages.insert(tree.clone(), product.clone());

@@ -10,6 +10,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
+use crate::partitioned::LowerTriangular;
 
 /// Numbers are integers, in units of `2^−BITS`.
 const BITS: usize = 320;
@@ -36,17 +37,32 @@ pub enum Pendulum {
 /// The order observed on a pendulum; `expected` determines the size of the step.
 pub(crate) fn observed_order(
     numbers: Coefficients<Number<'_>>,
+    lower_triangular: Option<LowerTriangular>,
     pendulum: Pendulum,
     expected: usize,
 ) -> Option<f64> {
+    if !numbers.gradient.is_empty() && pendulum != Pendulum::Quadratic {
+        return None;
+    }
     let bits = u32::try_from(BITS + 16).unwrap_or(u32::MAX);
     let method = numbers.map(|number| fixed(&number.enclose(bits).middle()));
+    let own_kick = lower_triangular.is_some_and(LowerTriangular::has_own_kick);
+    // The weights 2g_j of the gradient kicks in the momentum of a stage, as ã has those of the forces.
+    let weight = |i: usize, j: usize, weight: &BigInt| match j < i + usize::from(own_kick) {
+        true => weight * 2,
+        false => BigInt::zero(),
+    };
+    let row = |i: usize| {
+        let all = method.gradient.iter().enumerate();
+        all.map(|(j, g)| weight(i, j, g)).collect()
+    };
+    let gradients: Vec<Vec<BigInt>> = (0..=method.b.len()).map(row).collect();
     let start = [(5, 13), (4, 17)].map(|(p, q)| (BigInt::from(p) << BITS) / q);
     let series = series(pendulum, &start);
     let halvings = ERROR_BITS / (expected + 2);
     let mut logarithms = [0.0; 2];
     for (logarithm, halvings) in logarithms.iter_mut().zip([halvings, halvings + 1]) {
-        let found = step(&method, pendulum, &start, halvings)?;
+        let found = step(&method, &gradients, pendulum, &start, halvings)?;
         let exact = [0, 1].map(|i| -> BigInt {
             let terms = series.iter().enumerate();
             terms.map(|(n, term)| &term[i] >> (n * halvings)).sum()
@@ -114,6 +130,12 @@ fn force(pendulum: Pendulum, q: &BigInt, p: &BigInt) -> BigInt {
         Pendulum::Quadratic | Pendulum::Relativistic => -sine,
         Pendulum::Coupled => -product(&root(p), &sine),
     }
+}
+
+/// `f′ f` for the force `f` of `H = p²/2 − cos q`
+fn gradient(q: &BigInt) -> BigInt {
+    let sine = sine(q);
+    product(&cosine(&sine), &sine)
 }
 
 /// `2 − cos q`
@@ -190,6 +212,7 @@ fn series(pendulum: Pendulum, start: &[BigInt; 2]) -> Vec<[BigInt; 2]> {
 /// One step of the size `2^−halvings`.
 fn step(
     method: &Coefficients<BigInt>,
+    gradients: &[Vec<BigInt>],
     pendulum: Pendulum,
     start: &[BigInt; 2],
     halvings: usize,
@@ -204,6 +227,14 @@ fn step(
     let mut points = vec![start.clone(); stages];
     let mut velocities = vec![velocity(pendulum, q, p); stages];
     let mut forces = vec![force(pendulum, q, p); stages];
+    let kicked = |i: usize, row: &[BigInt], points: &[[BigInt; 2]], forces: &[BigInt]| {
+        let row_of_gradients = gradients[i]
+            .iter()
+            .zip(points)
+            .filter(|(g, _)| !g.is_zero());
+        let sum: BigInt = row_of_gradients.map(|(g, [q, _])| g * gradient(q)).sum();
+        advanced(p, row, forces) + (sum >> (BITS + 3 * halvings))
+    };
     for _ in 0..SWEEPS {
         let mut moved = 0;
         for i in 0..stages {
@@ -217,7 +248,7 @@ fn step(
                         (&mut forces, force(pendulum, q, p))
                     }
                     false => {
-                        points[i][1] = advanced(p, &method.a_tilde[i], &forces);
+                        points[i][1] = kicked(i, &method.a_tilde[i], &points, &forces);
                         let [q, p] = &points[i];
                         (&mut velocities, velocity(pendulum, q, p))
                     }
@@ -229,7 +260,7 @@ fn step(
         if moved <= 4 {
             return Some([
                 advanced(q, &method.b, &velocities),
-                advanced(p, &method.b_tilde, &forces),
+                kicked(stages, &method.b_tilde, &points, &forces),
             ]);
         }
     }

@@ -160,8 +160,11 @@ pub(super) trait OfLetters {
     fn of<F: Field>(self, field: &F, letters: Vec<(u8, F::Element)>) -> Self::Found;
 }
 
-/// Finds something from the kicks and drifts of a method; `None` if it is not a splitting for separable `H`.
+/// Finds something from the kicks and drifts of a method; `None` if it is not a splitting for separable `H`, or has gradient kicks.
 pub(super) fn with_letters<T, O: OfLetters<Found = Option<T>>>(exact: &Exact, of: O) -> Option<T> {
+    if exact.has_gradient_kicks() {
+        return None;
+    }
     let numbers = exact.numbers();
     let graph = StepGraph::new(Class::Separable, exact, &numbers);
     let chain = graph.splitting()?;

@@ -8,6 +8,7 @@ use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
 use crate::arithmetic::rounding::Decimal;
 use crate::evidence::{Evidence, evidence_text};
+use crate::properties::GRADIENT_KICKS;
 
 /// The order of a method for each class of Hamiltonians.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,9 +48,29 @@ pub struct ClassOrder {
     pub error_constant: Option<Decimal>,
 }
 
+impl ClassOrder {
+    /// The report for a class that a method with gradient kicks does not step.
+    pub(super) fn none() -> Self {
+        ClassOrder {
+            order: 0,
+            evidence: Evidence::Refuted,
+            refuted_by: None,
+            error_constant: None,
+        }
+    }
+
+    /// Whether the method steps Hamiltonians of this class. Gradient kicks are for quadratic `T` only; for other classes the order is 0.
+    pub fn exists(&self) -> bool {
+        self.evidence != Evidence::Refuted
+    }
+}
+
 impl fmt::Display for ClassOrder {
     /// `4, proved; not 5: q[q^4] has the weight 5/24 instead of 1/5, a difference of 1/120`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.exists() {
+            return write!(f, "none: {GRADIENT_KICKS}");
+        }
         if self.refuted_by.is_none() {
             f.write_str("at least ")?;
         }

@@ -87,7 +87,7 @@ impl SimplifyingAssumptions {
     }
 }
 
-/// The simplifying assumptions of a pair with `b = b̃`. `c` is the row sums of `a` or those of `ã`,
+/// The simplifying assumptions of a pair with `b = b̃` and without gradient kicks. `c` is the row sums of `a` or those of `ã`,
 /// whichever prove the higher order. `None` if `b` differs from `b̃`.
 ///
 /// Each equation is decided in the algebra; the work is a few products of a matrix and a vector for each
@@ -95,6 +95,9 @@ impl SimplifyingAssumptions {
 pub(crate) fn simplifying_assumptions<A: StageAlgebra>(
     pair: &Partitioned<A>,
 ) -> Option<SimplifyingAssumptions> {
+    if pair.gradient.is_some() {
+        return None;
+    }
     let algebra = &*pair.algebra;
     let weights = vanishing_vector(algebra, &algebra.subtract(&pair.b, &pair.b_tilde)).ok()?;
     let (c, c_tilde) = (pair.c(), pair.c_tilde());

@@ -3,6 +3,15 @@
 //! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`. So if the stages of all smaller trees are stored, a tree takes one product of vectors,
 //! and a condition one inner product: in a node algebra a trace. For each tree `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j` are stored,
 //! each computed when it is first needed. For conditions of the highest order nothing is stored.
+//!
+//! **Gradient kicks.** For quadratic `T` a gradient kick adds `2g f′(Q) M⁻¹f(Q)` to the force of its stage. Expanded about `q0`, a child
+//! `q[v]` of a root coloured `p` then has the force of `v` at the same stage. So with children `u_k` of that root, in place of `b̃_i Φ_i`,
+//!
+//! ```text
+//! b̃_i Φ_i + 2 g_i D_i,     D_i = Σ_{k: u_k = q[v]} Φ_i(v) Π_{l≠k} Σ_j a_ij Φ_j(u_l),
+//! ```
+//!
+//! where `D` is a derivation: `D(u∘w) = D(u) Σ_j a_ij Φ_j(w) + Φ(u) Φ(v)`, the last term only for `w = q[v]`.
 
 use std::cell::OnceCell;
 
@@ -63,6 +72,8 @@ struct Kept<V> {
     density: u64,
     /// `Φ_i`
     stages: OnceCell<V>,
+    /// `D_i` of gradient kicks.
+    gradient: OnceCell<V>,
     /// `b_i Φ_i`, or with `b̃` for a root coloured `p`.
     weighted: OnceCell<V>,
     /// `Σ_j a_ij Φ_j`, or with `ã` for a root coloured `p`.
@@ -73,6 +84,8 @@ struct Kept<V> {
 pub(super) struct Weights<'a, A: StageAlgebra> {
     pair: &'a Partitioned<A>,
     lower_triangular: Option<LowerTriangular>,
+    /// `2 g_i` of gradient kicks.
+    gradient: Option<A::Vector>,
     trees: Trees,
     kept: Vec<Kept<A::Vector>>,
     /// The number of products of a coefficient and a stage per tree.
@@ -86,8 +99,10 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         let for_all = stages * stages;
         let lower_triangular = pair.lower_triangular();
         let products = lower_triangular.map_or(for_all, |_| for_all.min(3 * stages));
+        let gradient = pair.gradient.as_ref();
         Weights {
-            products,
+            products: products * if gradient.is_some() { 2 } else { 1 },
+            gradient: gradient.map(|gradient| pair.algebra.add(gradient, gradient)),
             pair,
             lower_triangular,
             trees: Trees::up_to(rule, 0),
@@ -125,6 +140,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
             self.kept.push(Kept {
                 density,
                 stages: OnceCell::new(),
+                gradient: OnceCell::new(),
                 weighted: OnceCell::new(),
                 applied: OnceCell::new(),
             });
@@ -167,6 +183,9 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         let algebra = &*self.pair.algebra;
         let weighted = self.weighted(condition.rest);
         match condition.last {
+            Some(last) if self.at_one_stage(condition.rest, last).is_some() => {
+                algebra.sum(&self.terms(condition))
+            }
             Some(last) => algebra.inner(weighted, self.applied(last)),
             None => algebra.sum(weighted),
         }
@@ -174,10 +193,17 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
 
     /// The terms `b_i Φ_i` of the elementary weight.
     pub(super) fn terms(&self, condition: Condition) -> A::Vector {
+        let algebra = &*self.pair.algebra;
         let weighted = self.weighted(condition.rest);
-        match condition.last {
-            Some(last) => self.pair.algebra.multiply(weighted, self.applied(last)),
-            None => weighted.clone(),
+        let Some(last) = condition.last else {
+            return weighted.clone();
+        };
+        let terms = algebra.multiply(weighted, self.applied(last));
+        match (&self.gradient, self.at_one_stage(condition.rest, last)) {
+            (Some(gradient), Some(product)) => {
+                algebra.add(&terms, &algebra.multiply(gradient, &product))
+            }
+            _ => terms,
         }
     }
 
@@ -214,8 +240,42 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
                 Colour::Q => &self.pair.b,
                 Colour::P => &self.pair.b_tilde,
             };
-            self.pair.algebra.multiply(weights, self.stages(index))
+            let algebra = &*self.pair.algebra;
+            let weighted = algebra.multiply(weights, self.stages(index));
+            match &self.gradient {
+                Some(gradient) if self.trees.colour(index) == Colour::P => {
+                    let added = algebra.multiply(gradient, self.derived(index));
+                    algebra.add(&weighted, &added)
+                }
+                _ => weighted,
+            }
         })
+    }
+
+    /// `D_i` of a tree in the enumeration with a root coloured `p`.
+    fn derived(&self, index: u32) -> &A::Vector {
+        self.kept[index as usize].gradient.get_or_init(|| {
+            let algebra = &*self.pair.algebra;
+            let Some((rest, last)) = self.trees.entry(index).product else {
+                return algebra.constant(&BigRational::default());
+            };
+            let derived = algebra.multiply(self.derived(rest), self.applied(last));
+            match self.at_one_stage(rest, last) {
+                Some(product) => algebra.add(&derived, &product),
+                None => derived,
+            }
+        })
+    }
+
+    /// `Φ_i(rest) Φ_i(v)` for `last = q[v]` and a root coloured `p`: a gradient kick has the force of `v` at its own stage.
+    fn at_one_stage(&self, rest: u32, last: u32) -> Option<A::Vector> {
+        self.gradient.as_ref()?;
+        if self.trees.colour(rest) != Colour::P {
+            return None;
+        }
+        let (_, force) = self.trees.entry(last).product?;
+        let algebra = &*self.pair.algebra;
+        Some(algebra.multiply(self.stages(rest), self.stages(force)))
     }
 
     fn applied(&self, index: u32) -> &A::Vector {

@@ -29,6 +29,9 @@ use crate::partitioned::Partitioned;
 
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    if let Some(refuted) = examined.refuted_by_gradient_kicks() {
+        return refuted;
+    }
     if examined.numbers.b.len() == 1 {
         return with_an_end(examined);
     }

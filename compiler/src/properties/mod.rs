@@ -163,6 +163,17 @@ struct Examined<'a, A: StageAlgebra> {
     numbers: &'a Coefficients<Number<'a>>,
 }
 
+/// Why a property of methods for other Hamiltonians is not one of a method with gradient kicks.
+pub(crate) const GRADIENT_KICKS: &str = "gradient kicks need quadratic T";
+
+impl<A: StageAlgebra> Examined<'_, A> {
+    /// The refutation of a property of methods for all Hamiltonians: gradient kicks are for quadratic `T` only.
+    fn refuted_by_gradient_kicks(&self) -> Option<Property> {
+        let found = self.pair.gradient.as_ref();
+        found.map(|_| Property::refuted(GRADIENT_KICKS.to_owned()))
+    }
+}
+
 /// Decides whether numbers are all zero: the evidence that they are, or the first that is not.
 fn vanishing<'a, 'n: 'a>(
     numbers: impl IntoIterator<Item = &'a Number<'n>>,

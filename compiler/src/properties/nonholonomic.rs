@@ -44,6 +44,9 @@ fn have_steps<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
 
 /// Decides the conditions one after another, costly ones last.
 pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
+    if let Some(refuted) = examined.refuted_by_gradient_kicks() {
+        return refuted;
+    }
     let steps = have_steps(examined);
     if !steps.holds {
         return steps;

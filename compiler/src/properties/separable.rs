@@ -8,6 +8,7 @@ use super::symplectic::decide_matrices;
 use super::{Evidence, Examined, Property, Symmetry};
 use crate::algebra::{Dense, Field, NodeAlgebra, Zero};
 use crate::exact::{Exact, over_algebra};
+use crate::hamiltonian_class::HamiltonianClass;
 use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Groups};
 
@@ -15,8 +16,12 @@ use crate::schedule::{Class, Groups};
 ///
 /// There a stage `Q_i` enters only forces, and a stage `P_i` only velocities. So it does not matter which of them have the same number, and
 /// a splitting may have different weights for positions and momenta.
+///
+/// A splitting with gradient kicks has them for quadratic `T` only: see [`SeparableProperties::class`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SeparableProperties {
+    /// The class of Hamiltonians: separable ones, or with gradient kicks those with quadratic `T`.
+    pub class: HamiltonianClass,
     /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j` (MW 2.6.7; GNI VI.4, Theorem 4.6).
     pub symplectic: Property,
     /// Equal to its adjoint, for some order of the position stages and some order of the momentum stages.
@@ -36,7 +41,7 @@ impl SeparableProperties {
 
     /// Decides both. `symmetric` is the symmetry for every Hamiltonian, as far as known.
     ///
-    /// A splitting is symplectic whatever its coefficients are: with [lower triangular](Partitioned::lower_triangular) matrices one of
+    /// A splitting is symplectic whatever its coefficients are, and gradient kicks are kicks by another potential: with [lower triangular](Partitioned::lower_triangular) matrices one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
     pub(crate) fn of(exact: &Exact, symmetric: Property) -> Self {
         over_algebra!(exact, pair => SeparableProperties::of_pair(pair, symmetric))
@@ -51,6 +56,10 @@ impl SeparableProperties {
             }),
         };
         SeparableProperties {
+            class: match pair.gradient {
+                Some(_) => HamiltonianClass::Nystrom,
+                None => HamiltonianClass::Separable,
+            },
             symplectic,
             symmetric: if symmetric.holds {
                 symmetric
@@ -81,6 +90,9 @@ impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
         // Flows are their own adjoints.
         if pair.flows().is_some_and(|flows| flows.is_palindrome()) {
             return Property::holding(Evidence::Proved, None);
+        }
+        if pair.gradient.is_some() {
+            return Property::refuted("the kicks and drifts are not a palindrome".to_owned());
         }
         let apart = apart(pair);
         let mut symmetric = Self::symmetric(&apart, &apart.numbers());
@@ -177,5 +189,6 @@ fn apart<F: Field + Clone>(pair: &Partitioned<Dense<F>>) -> Partitioned<Dense<F>
             .collect(),
         b,
         b_tilde,
+        gradient: None,
     }
 }

@@ -5,6 +5,9 @@ use crate::algebra::StageAlgebra;
 
 /// Decides `b_i ã_ij + b̃_j a_ji = b_i b̃_j` and `b = b̃`.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    if let Some(refuted) = examined.refuted_by_gradient_kicks() {
+        return refuted;
+    }
     let pair = examined.pair;
     let algebra = &*pair.algebra;
     let weights = match vanishing_vector(algebra, &algebra.subtract(&pair.b, &pair.b_tilde)) {

@@ -13,7 +13,7 @@ use crate::evidence::Evidence;
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
 use crate::order::{HamiltonianClass, OrderOptions, listed};
-use crate::properties::{Properties, SeparableProperties};
+use crate::properties::{GRADIENT_KICKS, Properties, SeparableProperties};
 use crate::stability::StableSteps;
 use crate::tableau::Tableau;
 
@@ -22,8 +22,14 @@ use crate::tableau::Tableau;
 pub enum Requirement {
     /// A property of [`Properties::NAMES`].
     Property(String),
-    /// A property of [`SeparableProperties::NAMES`], for separable Hamiltonians: `symplectic(separable)`.
-    SeparableProperty(String),
+    /// A property of [`SeparableProperties::NAMES`], for separable Hamiltonians or for those with quadratic `T`:
+    /// `symplectic(separable)`, `symmetric(nystrom)`.
+    ClassProperty {
+        /// The property.
+        name: String,
+        /// The class of Hamiltonians.
+        class: HamiltonianClass,
+    },
     /// `order >= 4`, `order(separable) == 6`; without a class for every Hamiltonian.
     Order {
         /// The class of Hamiltonians.
@@ -48,7 +54,7 @@ pub enum Requirement {
 }
 
 /// The requirements other than properties, as messages list them.
-const OTHERS: &str = "symplectic(separable), symmetric(separable), order >= 4, order(separable) == 6, order(perturbed) >= (8, 4), p_stable, stable_to(2)";
+const OTHERS: &str = "symplectic(separable), symmetric(separable), the same for nystrom, order >= 4, order(separable) == 6, order(perturbed) >= (8, 4), p_stable, stable_to(2)";
 
 impl Requirement {
     /// Reads a requirement.
@@ -154,11 +160,17 @@ impl Requirement {
                 function,
                 arguments,
                 ..
-            } if SeparableProperties::NAMES.contains(&function.as_str())
-                && matches!(arguments.as_slice(), [class]
-                    if class.kind == ExpressionKind::Name(HamiltonianClass::Separable.to_string())) =>
-            {
-                Ok(Requirement::SeparableProperty(function.clone()))
+            } if SeparableProperties::NAMES.contains(&function.as_str()) => {
+                let mut classes =
+                    [HamiltonianClass::Separable, HamiltonianClass::Nystrom].into_iter();
+                let class = classes.find(|class| {
+                    matches!(arguments.as_slice(), [name]
+                        if name.kind == ExpressionKind::Name(class.to_string()))
+                });
+                let name = function.clone();
+                class
+                    .map(|class| Requirement::ClassProperty { name, class })
+                    .ok_or_else(unknown)
             }
             _ => Err(unknown()),
         }
@@ -194,9 +206,7 @@ impl fmt::Display for Requirement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Requirement::Property(name) => f.write_str(name),
-            Requirement::SeparableProperty(name) => {
-                write!(f, "{name}({})", HamiltonianClass::Separable)
-            }
+            Requirement::ClassProperty { name, class } => write!(f, "{name}({class})"),
             Requirement::Order {
                 class,
                 exactly,
@@ -238,19 +248,25 @@ impl Tableau {
                 let mut message = format!("the method is not `{name}`: {witness}");
                 let separable = self.separable_properties();
                 if !property.holds && separable.get(name).is_some_and(|found| found.holds) {
-                    message.push_str(&format!(
-                        "; for separable H it is: require `{name}(separable)`"
-                    ));
+                    let class = separable.class;
+                    message.push_str(&format!("; for {class} H it is: require `{name}({class})`"));
                 }
                 (property.holds, property.evidence, message)
             }
-            Requirement::SeparableProperty(name) => {
+            Requirement::ClassProperty { name, class } => {
                 let properties = self.separable_properties();
                 let Some(property) = properties.get(name) else {
-                    return Err(refuted(format!("there is no property `{name}(separable)`")));
+                    return Err(refuted(format!("there is no property `{requirement}`")));
                 };
+                if (*class, properties.class)
+                    == (HamiltonianClass::Separable, HamiltonianClass::Nystrom)
+                {
+                    return Err(refuted(format!(
+                        "the method is not `{requirement}`: {GRADIENT_KICKS}; require `{name}(nystrom)`"
+                    )));
+                }
                 let witness = property.witness.as_deref().unwrap_or("no witness");
-                let message = format!("the method is not `{name}(separable)`: {witness}");
+                let message = format!("the method is not `{requirement}`: {witness}");
                 (property.holds, property.evidence, message)
             }
             Requirement::Order {
@@ -319,6 +335,11 @@ impl Tableau {
             found = to(order + 1);
         }
         let refused = |message: String| Err(ErrorKind::Requirement { message });
+        if !found.exists() {
+            return refused(format!(
+                "the method has no order for {class} H: {GRADIENT_KICKS}; require `order(nystrom)`"
+            ));
+        }
         if found.order < order {
             let Some(violated) = &found.refuted_by else {
                 return refused(format!(

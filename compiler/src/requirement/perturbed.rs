@@ -5,6 +5,7 @@ use crate::error::ErrorKind;
 use crate::evidence::Evidence;
 use crate::expression::shown;
 use crate::order::{PowerOrder, listed};
+use crate::properties::GRADIENT_KICKS;
 use crate::tableau::Tableau;
 
 /// Whether the text before the sign asks for this order.
@@ -39,9 +40,11 @@ impl Tableau {
     ) -> Result<(), ErrorKind> {
         let refused = |message: String| Err(ErrorKind::Requirement { message });
         let Some(found) = self.perturbed_order() else {
-            return refused(
-                "the method has no order for perturbed H: it is not a splitting".to_owned(),
-            );
+            let reason = match self.exact.has_gradient_kicks() {
+                true => GRADIENT_KICKS,
+                false => "it is not a splitting",
+            };
+            return refused(format!("the method has no order for perturbed H: {reason}"));
         };
         let numbers = found.numbers();
         let mut evidence = Evidence::Proved;

@@ -2,7 +2,8 @@
 
 use super::{Class, Evaluation, Node, Schedule, StageValue, StepGraph};
 use crate::arithmetic::rational::ratio;
-use crate::exact::Exact;
+use crate::exact::{Exact, over_algebra};
+use crate::partitioned::{Flow, Flows};
 
 /// The nodes of a step by the function in which they are computed.
 #[derive(Debug)]
@@ -118,11 +119,21 @@ pub struct Evaluations {
     pub forces: usize,
     /// Evaluations of the velocity `∂T/∂p`.
     pub velocities: usize,
+    /// Products of the Hessian of `U` and a vector, one for each gradient kick.
+    pub gradients: usize,
 }
 
 impl Evaluations {
+    /// The force evaluations that the cost of a step counts: a gradient kick counts as two, a force and a product.
+    pub fn cost(&self) -> usize {
+        self.forces + self.gradients
+    }
+
     /// The evaluations of a method that is explicit for separable Hamiltonians.
     pub(crate) fn of(exact: &Exact) -> Option<Self> {
+        if exact.has_gradient_kicks() {
+            return over_algebra!(exact, pair => Some(Evaluations::of_flows(&pair.flows()?)));
+        }
         let graph = StepGraph::new(Class::Separable, exact, &exact.numbers());
         let phases = Phases::new(&graph);
         let carried = phases.carried();
@@ -135,6 +146,23 @@ impl Evaluations {
         phases.coupled.is_empty().then(|| Evaluations {
             forces: graph.forces.len() - saved(true),
             velocities: graph.velocities.len() - saved(false),
+            gradients: 0,
         })
+    }
+
+    /// The evaluations of a splitting with gradient kicks, of which those of the first flow are those at the end of the previous step if
+    /// that has them.
+    fn of_flows<T>(flows: &Flows<T>) -> Self {
+        let count = |of: &dyn Fn(&Flow<T>) -> bool| {
+            let all = flows.iter().filter(|flow| of(flow)).count();
+            let ends = [flows.iter().next(), flows.iter().last()];
+            let carried = ends.into_iter().all(|end| end.is_some_and(of));
+            all - usize::from(carried && all > 1)
+        };
+        Evaluations {
+            forces: count(&|flow| flow.is_kick),
+            velocities: count(&|flow| !flow.is_kick),
+            gradients: count(&|flow| flow.gradient.is_some()),
+        }
     }
 }

@@ -189,6 +189,7 @@ mod tests {
             a_tilde: rows(&b_tilde, 5),
             b: b.to_vec(),
             b_tilde: b_tilde.to_vec(),
+            gradient: None,
         }
     }
 

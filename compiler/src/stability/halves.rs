@@ -112,10 +112,7 @@ impl<A: StageAlgebra> Half<A> {
         let [zero, one, x] = [&ratio(0, 1), &ratio(1, 1), x].map(|value| field.rational(value));
         let add = |sum: &mut Scalar<A>, factor: &Scalar<A>, value: &Scalar<A>, power| {
             let product = field.multiply(factor, value);
-            let product = match power {
-                0 => product,
-                _ => field.multiply(&product, &x),
-            };
+            let product = (0..power).fold(product, |product, _| field.multiply(&product, &x));
             *sum = field.add(sum, &product);
         };
         let negative = |kick: &Scalar<A>| field.subtract(&zero, kick);
@@ -131,10 +128,7 @@ impl<A: StageAlgebra> Half<A> {
             let x = Ball::quotient(x, bits);
             let add = |sum: &mut Ball, factor: &Ball, value: &Ball, power| {
                 let product = factor.with_bits(bits).multiply(value, bits);
-                let product = match power {
-                    0 => product,
-                    _ => product.multiply(&x, bits),
-                };
+                let product = (0..power).fold(product, |product, _| product.multiply(&x, bits));
                 *sum = sum.add(&product, bits);
             };
             let units = [Ball::whole(0), Ball::whole(1)];

@@ -210,12 +210,12 @@ fn parts_of_splitting<A: StageAlgebra>(
     let negative = |list: Vec<Scalar<A>>| -> Vec<Scalar<A>> {
         list.iter().map(|x| field.subtract(&zero, x)).collect()
     };
-    let kicks = flows.iter().filter(|(is_kick, _)| *is_kick);
+    let kicks = flows.iter().filter(|flow| flow.is_kick);
     Parts {
         b_one: m12,
         b_c: negative(m11.split_off(1)),
         ab_one: negative(m22.split_off(1)),
-        b_sum: vec![kicks.fold(zero.clone(), |sum, (_, kick)| field.add(&sum, kick))],
+        b_sum: vec![kicks.fold(zero.clone(), |sum, kick| field.add(&sum, &kick.fraction))],
         ab_c: m21.split_off(m21.len().min(1)),
         determinant: vec![one],
     }
@@ -237,7 +237,7 @@ pub(super) fn matrix_of_flows<F: Field>(
     product_of_flows(flows, [Vec::new(), vec![one]], negative, add)
 }
 
-/// The product of the matrices of drifts `d` and kicks `k`,
+/// The product of the matrices of drifts `d` and kicks `k`, with `k − 2gν²` in place of `k` for gradient kicks,
 ///
 /// ```text
 /// ⎛ 1  νd ⎞      ⎛  1   0 ⎞
@@ -253,14 +253,20 @@ pub(super) fn product_of_flows<E: Clone, T: Clone>(
     add: impl Fn(&mut T, &E, &T, usize),
 ) -> [T; 4] {
     let [mut m11, mut m12, mut m21, mut m22] = [one.clone(), zero.clone(), zero, one];
-    for (is_kick, fraction) in flows.iter() {
-        if is_kick {
-            let back = negative(fraction);
+    for flow in flows.iter() {
+        if flow.is_kick {
+            let back = negative(&flow.fraction);
             add(&mut m21, &back, &m11, 0);
             add(&mut m22, &back, &m12, 1);
+            for _ in 0..2 {
+                if let Some(gradient) = &flow.gradient {
+                    add(&mut m21, gradient, &m11, 1);
+                    add(&mut m22, gradient, &m12, 2);
+                }
+            }
         } else {
-            add(&mut m11, fraction, &m21, 1);
-            add(&mut m12, fraction, &m22, 0);
+            add(&mut m11, &flow.fraction, &m21, 1);
+            add(&mut m12, &flow.fraction, &m22, 0);
         }
     }
     [m11, m12, m21, m22]
@@ -391,6 +397,7 @@ mod tests {
             a_tilde: rows(&b_tilde, 1),
             b,
             b_tilde,
+            gradient: None,
         }
     }
 

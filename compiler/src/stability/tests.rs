@@ -243,6 +243,7 @@ fn methods_over_a_number_field_have_their_known_stability() {
         a_tilde: vec![vec![Polynomial::zero()]],
         b: vec![Polynomial::variable()],
         b_tilde: vec![Polynomial::one()],
+        gradient: None,
         algebra,
     };
     let stability = Stability::of_pair(&pair);
@@ -416,6 +417,7 @@ fn stability_of_nonsymplectic_pairs_uses_the_determinant() {
         a_tilde: matrix(&[&["1"]]),
         b: matrix(&[&["1"]]).remove(0),
         b_tilde: matrix(&[&["1/2"]]).remove(0),
+        gradient: None,
         algebra: Arc::clone(&algebra),
     };
     let damped = Stability::of_pair(&damped);
@@ -427,6 +429,7 @@ fn stability_of_nonsymplectic_pairs_uses_the_determinant() {
         a_tilde: matrix(&[&["1/2", "0"], &["0", "-1"]]),
         b: matrix(&[&["1", "0"]]).remove(0),
         b_tilde: matrix(&[&["1", "0"]]).remove(0),
+        gradient: None,
         algebra,
     };
     let unseen = Stability::of_pair(&unseen);
@@ -454,6 +457,7 @@ fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
         ]),
         b: matrix(&[&["1/4", "1/4", "1/4", "1/4"]]).remove(0),
         b_tilde: matrix(&[&["1/4", "1/4", "1/4", "1/4"]]).remove(0),
+        gradient: None,
         algebra,
     };
     let stability = Stability::of_pair(&verlet);
@@ -472,6 +476,7 @@ fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
         a_tilde: matrix(&[&["1", "0"], &["0", "0"]]),
         b: matrix(&[&["0", "0"]]).remove(0),
         b_tilde: matrix(&[&["1/2", "1/2"]]).remove(0),
+        gradient: None,
     };
     let stability = Stability::of_pair(&kick);
     assert_eq!(stability.trace.to_string(), "2");

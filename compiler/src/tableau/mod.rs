@@ -277,6 +277,11 @@ impl Tableau {
         self.exact.stages()
     }
 
+    /// Whether it is a splitting with gradient kicks, for quadratic kinetic energy.
+    pub fn has_gradient_kicks(&self) -> bool {
+        self.exact.has_gradient_kicks()
+    }
+
     /// Whether the coefficients for momenta are those for positions, `ã = a` and `b̃ = b`, as elements
     /// of the algebra that holds them.
     pub fn equal_halves(&self) -> (bool, bool) {

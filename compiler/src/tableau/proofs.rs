@@ -263,11 +263,14 @@ impl Tableau {
     }
 
     /// The order of symplecticity for general Hamiltonians, from trees up to order `limit`; `None` for a
-    /// method that is symplectic by its coefficients.
+    /// method that is symplectic by its coefficients, or for a splitting with gradient kicks, which steps other Hamiltonians only.
     ///
     /// If no condition up to the limit is violated, it is the order of the method if that is higher, because the
     /// exact flow is symplectic.
     pub fn symplecticity_order(&self, limit: usize) -> Option<SymplecticityOrder> {
+        if self.exact.has_gradient_kicks() {
+            return None;
+        }
         let mut found = over_algebra!(&self.exact, pair => {
             symplecticity_order(pair, HamiltonianClass::General, limit)
         })?;
@@ -305,7 +308,7 @@ impl Tableau {
     /// The order observed on a pendulum: `log₂` of the ratio of the errors of one step, minus 1.
     /// `expected` determines the size of the step.
     ///
-    /// `None` if the error is lost in round-off, because the order is much higher than expected, or if the iteration for the
+    /// `None` for gradient kicks on a pendulum whose kinetic energy is not quadratic, if the error is lost in round-off, because the order is much higher than expected, or if the iteration for the
     /// stages does not converge.
     ///
     /// ```
@@ -320,11 +323,12 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn observed_order(&self, pendulum: Pendulum, expected: usize) -> Option<f64> {
-        observed_order(self.numbers(), pendulum, expected)
+        let lower_triangular = self.exact.lower_triangular();
+        observed_order(self.numbers(), lower_triangular, pendulum, expected)
     }
 
     /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`, computed on
-    /// the first call. `None` for a method that is not a splitting for separable `H`.
+    /// the first call. `None` for a method that is not a splitting for separable `H`, or has gradient kicks.
     ///
     /// The first order is determined up to [`MAX_PERTURBED_ORDER`](crate::certify::MAX_PERTURBED_ORDER), the others up to [`MAX_ORDER`](crate::certify::MAX_ORDER).
     ///
@@ -358,7 +362,7 @@ impl Tableau {
     /// use symplectic_compiler::schedule::Evaluations;
     ///
     /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?;
-    /// assert_eq!(verlet.evaluations(), Some(Evaluations { forces: 1, velocities: 1 }));
+    /// assert_eq!(verlet.evaluations(), Some(Evaluations { forces: 1, velocities: 1, gradients: 0 }));
     /// let gauss = symplectic_compiler::derive("polynomial(2)", "gauss(2)")?;
     /// assert_eq!(gauss.evaluations(), None);
     /// # Ok::<(), symplectic_compiler::Error>(())

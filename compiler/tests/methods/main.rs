@@ -9,6 +9,7 @@ mod exchange;
 mod extreme;
 mod extreme_definitions;
 mod golden;
+mod gradient_kicks;
 mod observed_order;
 mod older_files;
 mod perturbed;

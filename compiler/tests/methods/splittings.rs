@@ -311,7 +311,8 @@ fn a_named_composition_is_the_one_written_by_hand() {
         general.evaluations(),
         Some(Evaluations {
             forces: 5,
-            velocities: 5
+            velocities: 5,
+            gradients: 0,
         })
     );
     // One step of Gauss, order 4, is where the scheme starts from.

@@ -249,7 +249,7 @@ impl Tableau {
     /// Forces per step of a method that is explicit for separable H.
     #[getter]
     fn forces(&self) -> Option<usize> {
-        self.0.evaluations().map(|evaluations| evaluations.forces)
+        self.0.evaluations().map(|evaluations| evaluations.cost())
     }
 
     /// The stable steps hω on the oscillator, as text.

@@ -59,6 +59,14 @@ pub enum Refusal {
     /// It is not symplectic.
     #[error(transparent)]
     Tableau(#[from] TableauError),
+    /// It has gradient kicks, which a method of a program that runs has not.
+    #[error(
+        "`{method}` has gradient kicks, which `symplectic run` and Python do not take: `tableau!` takes them in a Rust program"
+    )]
+    GradientKicks {
+        /// Its name.
+        method: String,
+    },
     /// It has no steps for the constraints.
     #[error("`{method}` has no steps for {}", instead(*are_holonomic))]
     Constraints {
@@ -92,6 +100,13 @@ fn instead(are_holonomic: bool) -> &'static str {
 ///
 /// [`Refusal`] of a method that is not symplectic, or has no steps for the constraints.
 pub fn stepping(tableau: &Tableau, holonomic: Option<bool>) -> Result<RunTimeTableau, Refusal> {
+    if tableau.has_gradient_kicks() {
+        let method = tableau
+            .name()
+            .unwrap_or("a method without a name")
+            .to_owned();
+        return Err(Refusal::GradientKicks { method });
+    }
     let report = tableau.orders();
     let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
     let orders = Orders {

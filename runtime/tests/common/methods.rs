@@ -38,6 +38,10 @@ symplectic::tableau! {
     pub ForestRuth { base: forest-ruth-1990 }
     /// Order 4 for quadratic kinetic energy only.
     pub McLachlanAtela { base: mclachlan-atela-1992-order-4-optimal }
+    /// With a gradient kick.
+    pub Chin { base: chin-1997-c }
+    /// With gradient kicks at both ends.
+    pub ChinChen { kick: [1/8, 3/8], drift: [1/3, 1/3], gradient: [1/384, 0], symmetric: true }
 }
 
 symplectic::composition! {

@@ -12,6 +12,7 @@ mod event_zeros;
 mod events;
 mod excursions;
 mod generating_function;
+mod gradient_kicks;
 mod impacts;
 mod newton;
 mod newton_of_chains;

@@ -84,6 +84,7 @@ impl Emitter<'_> {
                     ::core::option::Option::Some({ #force })
                 }
 
+                #[inline(always)]
                 fn outer_stiffness<#scalar: #bound>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #stiffness })
                 }
@@ -105,6 +106,9 @@ impl Emitter<'_> {
                     #tension
                 }
 
+                const FORCE_GRADIENT: bool = true;
+
+                #[inline(always)]
                 fn stiffness<#scalar: #bound>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #stiffness })
                 }

@@ -47,6 +47,7 @@ impl Emitter<'_> {
         unit: &Option<TokenStream>,
         velocities: &[Parts],
         forces: &[Parts],
+        force_gradient: &Option<[Parts; 1]>,
     ) -> Lanes {
         if self.system.parameters.is_empty() {
             return Lanes::default();
@@ -59,6 +60,12 @@ impl Emitter<'_> {
             writer.in_lanes()
         });
         let force = self.derivatives_by(&["q"], forces, &["force"], |writer| writer.in_lanes());
+        let force_gradient = force_gradient.as_ref().map(|parts| {
+            let read = ["q", "p"];
+            let statements =
+                self.derivatives_by(&read, parts, &["gradient"], |writer| writer.in_lanes());
+            self.force_gradient(&statements)
+        });
         let joined = self.joined();
         Lanes {
             join: self.join(&quote!(in_lanes_of_separable), &quote!(Separable)),
@@ -80,6 +87,8 @@ impl Emitter<'_> {
                     fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, force: &mut #over) {
                         #force
                     }
+
+                    #force_gradient
                 }
             },
         }

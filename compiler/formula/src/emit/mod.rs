@@ -424,7 +424,14 @@ impl<'a> Emitter<'a> {
         let (velocities, forces) = (self.gradients(&[velocity]), self.gradients(&[force]));
         let velocity = self.derivatives(&["p"], &velocities, &["velocity"]);
         let force = self.derivatives(&["q"], &forces, &["force"]);
-        let Lanes { system, join } = self.separable_in_lanes(&unit, &velocities, &forces);
+        let force_gradient = self.system.force_gradient(self.structure);
+        let force_gradient = force_gradient.map(|parts| [("gradient", parts)]);
+        let Lanes { system, join } =
+            self.separable_in_lanes(&unit, &velocities, &forces, &force_gradient);
+        let force_gradient = force_gradient.map(|parts| {
+            let statements = self.derivatives(&["q", "p"], &parts, &["gradient"]);
+            self.force_gradient(&statements)
+        });
         let energy = self.energy(self.system.energy);
         let jacobian = self.jacobian(Some(split));
         let inlined = self.inlined();
@@ -450,6 +457,8 @@ impl<'a> Emitter<'a> {
                     #force
                 }
 
+                #force_gradient
+
                 fn energy<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
@@ -460,6 +469,21 @@ impl<'a> Emitter<'a> {
             }
 
             #system
+        }
+    }
+
+    /// The force gradient by these statements, in which the momenta are the components of the force.
+    fn force_gradient(&self, statements: &TokenStream) -> TokenStream {
+        let (scalar, bound) = (&self.scalar, &self.bound);
+        let over = self.vector(&quote!(#scalar));
+        quote! {
+            const FORCE_GRADIENT: bool = true;
+
+            #[inline(always)]
+            fn force_gradient<#scalar: #bound>(&self, time: #scalar, q: &#over, force: &#over, gradient: &mut #over) {
+                let p = force;
+                #statements
+            }
         }
     }
 

@@ -161,6 +161,7 @@ fn certify_refuses_bad_input_with_the_reason() {
         let splitting = Splitting {
             kick: texts(kick),
             drift: texts(drift),
+            gradient: Vec::new(),
         };
         let error = certify(&splitting, claim).expect_err("wrong");
         error.to_string()

@@ -55,6 +55,17 @@ pub(super) struct Plan {
     pub(super) splits: bool,
 }
 
+impl Plan {
+    /// The plan for general systems of a splitting that has none.
+    fn none() -> Self {
+        Plan {
+            name: quote!(emitted::SeparableOnly),
+            code: TokenStream::new(),
+            splits: false,
+        }
+    }
+}
+
 /// The plans of a method, under these names; one plan for both classes has the name `shared`. A composition of at least two substeps with
 /// coupled stages is computed substep by substep, from its methods and substeps.
 pub(super) fn plans(
@@ -64,6 +75,15 @@ pub(super) fn plans(
     names: [(Class, &Ident); 2],
     shared: &Ident,
 ) -> [Plan; 2] {
+    if let Some(lower_triangular) = tableau.exact.lower_triangular()
+        && tableau.has_gradient_kicks()
+    {
+        let [_, (_, name)] = names;
+        return [
+            Plan::none(),
+            splitting::with_gradient_kicks(numbers, lower_triangular, name),
+        ];
+    }
     let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
     let polynomials = StagePolynomials::new(numbers);
     let known = Known::new(tableau);
@@ -97,11 +117,7 @@ pub(super) fn plans(
     let [general_graph, separable_graph] = graphs;
     [(general, general_graph), (separable, separable_graph)].map(|((class, name), graph)| {
         let Some(graph) = graph else {
-            return Plan {
-                name: quote!(emitted::SeparableOnly),
-                code: TokenStream::new(),
-                splits: false,
-            };
+            return Plan::none();
         };
         if !is_composed(&graph) {
             return of_stages(&graph, name, &known, Some(&polynomials));

@@ -10,7 +10,7 @@
 //!      "witness": string or null}
 //! ```
 //!
-//! `basis` and `nodes` are null if there are none. `definition` is present only if these two do not
+//! With gradient kicks there is also `"gradient": [N]`, the `g_i`. `basis` and `nodes` are null if there are none. `definition` is present only if these two do not
 //! determine the tableau, and holds all parts of the [`Definition`](crate::Definition). `tier` is the name of the
 //! [`Tier`](crate::Tier).
 //!

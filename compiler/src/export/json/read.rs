@@ -104,6 +104,9 @@ struct Document<'a> {
     /// Null for a long splitting.
     a: Option<Vec<Vec<Number<'a>>>>,
     a_tilde: Option<Vec<Vec<Number<'a>>>>,
+    /// For gradient kicks only.
+    #[serde(borrow, default)]
+    gradient: Option<Vec<Number<'a>>>,
     properties: PropertyList<'a>,
     /// These may be absent in an older format.
     #[serde(borrow, default, deserialize_with = "stated")]
@@ -344,6 +347,7 @@ impl<'a> Document<'a> {
         tables.extend(
             matrices.filter_map(|(name, rows)| Some((name, Table::Matrix(rows.as_ref()?)))),
         );
+        tables.extend(self.gradient.iter().map(|list| ("g", Table::Vector(list))));
         tables
     }
 

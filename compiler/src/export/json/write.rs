@@ -56,11 +56,14 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         ("b_tilde", vector(&forms.b_tilde, "  ")),
         ("a", matrix(&forms.a)),
         ("a_tilde", matrix(&forms.a_tilde)),
-        (
-            "properties",
-            format!("{{\n{}\n  }}", properties.join(",\n")),
-        ),
     ]);
+    if !forms.gradient.is_empty() {
+        members.push(("gradient", vector(&forms.gradient, "  ")));
+    }
+    members.extend([(
+        "properties",
+        format!("{{\n{}\n  }}", properties.join(",\n")),
+    )]);
     for (section, facts) in facts::sections(tableau, digits) {
         let facts: Vec<String> = facts
             .iter()

@@ -152,6 +152,8 @@ pub(super) struct Exact {
     pub(super) node_polynomial: Option<List>,
     pub(super) b: List,
     pub(super) b_tilde: List,
+    /// For gradient kicks only.
+    gradient: Option<List>,
     pub(super) a: Option<Matrix>,
     pub(super) a_tilde: Option<Matrix>,
 }
@@ -164,6 +166,7 @@ struct Decimals {
     c_tilde: List,
     b: List,
     b_tilde: List,
+    gradient: Option<List>,
     a: Option<Matrix>,
     a_tilde: Option<Matrix>,
 }
@@ -367,8 +370,11 @@ impl Derived {
             ("b", &decimals.b, stages),
             ("b_tilde", &decimals.b_tilde, stages),
         ];
+        let gradient = |list| ("gradient", list, stages);
+        vectors.extend(decimals.gradient.as_ref().map(gradient));
         let mut matrices = vec![("a", &decimals.a), ("a_tilde", &decimals.a_tilde)];
         if let Some(exact) = &self.exact {
+            vectors.extend(exact.gradient.as_ref().map(gradient));
             vectors.extend([("b", &exact.b, stages), ("b_tilde", &exact.b_tilde, stages)]);
             let modulus = exact.node_polynomial.as_ref();
             vectors.extend(modulus.map(|list| ("node_polynomial", list, stages + 1)));
@@ -436,7 +442,9 @@ impl Derived {
         let functions = exact.node_polynomial.is_some();
         let node_polynomial = exact.node_polynomial.iter();
         let lists = node_polynomial.map(|list| ("the node polynomial", list));
-        for (name, list) in lists.chain([("b", &exact.b), ("b̃", &exact.b_tilde)]) {
+        let weights = [("b", &exact.b), ("b̃", &exact.b_tilde)];
+        let gradient = exact.gradient.iter().map(|list| ("g", list));
+        for (name, list) in lists.chain(weights).chain(gradient) {
             for (index, value) in list.get_ref().iter().enumerate() {
                 let name = if functions {
                     format!("{name}, coefficient of {} (exact)", monomial(index, 0))
@@ -465,12 +473,14 @@ impl Derived {
         let mut entries = self.exact_entries();
         let decimals = &self.decimals;
         entries.push(one("digits".to_owned(), &decimals.digits));
-        for (name, list) in [
+        let lists = [
             ("c", &decimals.c),
             ("c̃", &decimals.c_tilde),
             ("b", &decimals.b),
             ("b̃", &decimals.b_tilde),
-        ] {
+        ];
+        let gradient = decimals.gradient.iter().map(|list| ("g", list));
+        for (name, list) in lists.into_iter().chain(gradient) {
             for (index, value) in list.get_ref().iter().enumerate() {
                 entries.push(one(format!("{name}_{} (decimal)", index + 1), value));
             }

@@ -32,6 +32,7 @@
 //! If the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions
 //! such as `"(pi - 4)/(4*pi)"`. If it is `enclosure`, there is no `[exact]`: the definition is the
 //! lossless part. The matrices of a splitting with more than 36 stages are left out, because its weights determine them.
+//! With gradient kicks both `[exact]` and `[decimals]` have a list `gradient`, the `g_i`.
 //!
 //! Write only the definition; [`check`](crate::check()), [`read`] and the macro derive the rest:
 //!

@@ -62,6 +62,7 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         a_tilde: tensor(file, &exact.a_tilde)?,
         b: polynomial(file, &exact.b)?,
         b_tilde: polynomial(file, &exact.b_tilde)?,
+        gradient: None,
     };
     let mut tableau = Tableau::read(origin.definition(), Arc::new(Exact::Nodes(pair)));
     tableau.name = origin.name;

@@ -37,6 +37,10 @@ const TWO_INDICES: &str = "\
 # A row has the coefficients of 1, x, x^2, … beside one power of y.
 ";
 
+const GRADIENT: &str = "\
+# Gradient kicks, for quadratic T: with the force f, p += h (b̃_i f + 2 g_i h² f′ M⁻¹ f).
+";
+
 const KICKS_FIRST: &str = "\
 # Not written out, as the weights say it: a_ij = b_j for j < i and ã_ij = b̃_j for j ≤ i, zero elsewhere.
 # In each stage a kick b̃_i, then a drift b_i.
@@ -139,6 +143,7 @@ fn write_expressions(text: &mut String, tableau: &Tableau) {
     text.push_str("\n[exact]\n");
     write_vector(text, "b", &forms.b);
     write_vector(text, "b_tilde", &forms.b_tilde);
+    write_gradient(text, &forms.gradient);
     if left_out(tableau).is_none() {
         write_matrix(text, "a", &forms.a, stage);
         write_matrix(text, "a_tilde", &forms.a_tilde, stage);
@@ -154,6 +159,7 @@ fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
     write_vector(text, "c_tilde", &decimals.c_tilde);
     write_vector(text, "b", &decimals.b);
     write_vector(text, "b_tilde", &decimals.b_tilde);
+    write_gradient(text, &decimals.gradient);
     match left_out(tableau) {
         Some(LowerTriangular::KicksFirst) => text.push_str(KICKS_FIRST),
         Some(LowerTriangular::DriftsFirst) => text.push_str(DRIFTS_FIRST),
@@ -161,6 +167,14 @@ fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
             write_matrix(text, "a", &decimals.a, stage);
             write_matrix(text, "a_tilde", &decimals.a_tilde, stage);
         }
+    }
+}
+
+/// The weights of gradient kicks, if there are any.
+fn write_gradient(text: &mut String, gradient: &[String]) {
+    if !gradient.is_empty() {
+        text.push_str(GRADIENT);
+        write_vector(text, "gradient", gradient);
     }
 }
 

@@ -74,6 +74,7 @@ pub(crate) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> Rational
         a_tilde: matrix(kick, |i, j| j <= i),
         b: drift.to_vec(),
         b_tilde: kick.to_vec(),
+        gradient: None,
     }
 }
 

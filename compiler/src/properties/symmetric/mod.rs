@@ -14,7 +14,10 @@ use crate::partitioned::Partitioned;
 /// Decides whether some permutation `σ` of the stages gives `a_σ(i)σ(j) = b_j − a_ij` and
 /// `b_σ(i) = b_i`, and the same for `ã` and `b̃`.
 pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
-    A::symmetric(examined.pair, examined.numbers)
+    match examined.refuted_by_gradient_kicks() {
+        Some(refuted) => refuted,
+        None => A::symmetric(examined.pair, examined.numbers),
+    }
 }
 
 /// An algebra over which symmetry can be decided.

@@ -168,14 +168,7 @@ const _: () = {
                 emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
                 emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
             ];
-            emitted::Coefficients {
-                a: A,
-                a_tilde: A_TILDE,
-                b: B,
-                b_tilde: B_TILDE,
-                c: C,
-                c_tilde: C_TILDE,
-            }
+            emitted::Coefficients::new([A, A_TILDE], [B, B_TILDE], [C, C_TILDE])
         };
         const ORDERS: emitted::Orders = emitted::Orders {
             general: 1,

@@ -72,14 +72,7 @@ const _: () = {
                 emitted::rounded(0.2113248654051871, 1.1030435245950743e-17),
                 emitted::rounded(0.7886751345948129, 1.6725140369678172e-17),
             ];
-            emitted::Coefficients {
-                a: A,
-                a_tilde: A,
-                b: B,
-                b_tilde: B,
-                c: C,
-                c_tilde: C,
-            }
+            emitted::Coefficients::new([A, A], [B, B], [C, C])
         };
         const ORDERS: emitted::Orders = emitted::Orders {
             general: 4,

@@ -69,14 +69,7 @@ const _: () = {
                 emitted::exact(0.5),
                 emitted::exact(0.5),
             ];
-            emitted::Coefficients {
-                a: A,
-                a_tilde: A_TILDE,
-                b: B,
-                b_tilde: B,
-                c: C,
-                c_tilde: C_TILDE,
-            }
+            emitted::Coefficients::new([A, A_TILDE], [B, B], [C, C_TILDE])
         };
         const ORDERS: emitted::Orders = emitted::Orders {
             general: 2,

@@ -65,7 +65,8 @@ pub(super) fn of(
     }
     let report = tableau.orders();
     let mut orders = Vec::new();
-    for class in HamiltonianClass::ALL {
+    let classes = HamiltonianClass::ALL.into_iter();
+    for class in classes.filter(|class| report.class(*class).exists()) {
         match class_order(report.class(class)) {
             Some(order) => orders.push((class.name(), order)),
             None => missing.push(format!("order ({class})")),

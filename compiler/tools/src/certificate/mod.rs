@@ -56,6 +56,7 @@ pub fn write(tableau: &Tableau) -> Result<String, Error> {
         ("b", numbers.b),
         ("b_tilde", numbers.b_tilde),
     ];
+    members.extend(numbers.gradient.map(|gradient| ("gradient", gradient)));
     if let Some((a, a_tilde)) = numbers.matrices {
         members.extend([("a", a), ("a_tilde", a_tilde)]);
     }
@@ -86,6 +87,9 @@ fn doubles(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Fact
         ("b", vector(&doubles.b)),
         ("b_tilde", vector(&doubles.b_tilde)),
     ];
+    if !doubles.gradient.is_empty() {
+        members.push(("gradient", vector(&doubles.gradient)));
+    }
     if lower_triangular.is_none() {
         let matrix = |rows: &Vec<Vec<f64>>| List(rows.iter().map(vector).collect());
         members.push(("a", matrix(&doubles.a)));

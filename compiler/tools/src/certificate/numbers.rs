@@ -29,6 +29,8 @@ pub(super) struct Numbers {
     pub lower_triangular: Option<LowerTriangular>,
     pub b: Fact,
     pub b_tilde: Fact,
+    /// The weights of gradient kicks.
+    pub gradient: Option<Fact>,
     pub matrices: Option<(Fact, Fact)>,
 }
 
@@ -55,6 +57,7 @@ impl Numbers {
             lower_triangular: None,
             b: coefficients(&pair.b),
             b_tilde: coefficients(&pair.b_tilde),
+            gradient: None,
             matrices: Some((matrix(&pair.a), matrix(&pair.a_tilde))),
         }
     }
@@ -90,6 +93,7 @@ impl Numbers {
             lower_triangular,
             b: vector(&pair.b),
             b_tilde: vector(&pair.b_tilde),
+            gradient: pair.gradient.as_ref().map(vector),
             matrices: match lower_triangular {
                 Some(_) => None,
                 None => Some((matrix(&pair.a), matrix(&pair.a_tilde))),
@@ -99,11 +103,15 @@ impl Numbers {
 
     /// A composition of compositions: its levels give the weights.
     fn of_levels(tableau: &Tableau, pair: &Partitioned<Dense<Reals>>) -> Option<Self> {
+        if pair.gradient.is_some() {
+            return None;
+        }
         Some(Numbers {
             kind: levels::of(&tableau.provenance().definition)?,
             lower_triangular: Some(pair.lower_triangular()?),
             b: List(Vec::new()),
             b_tilde: List(Vec::new()),
+            gradient: None,
             matrices: None,
         })
     }
@@ -115,11 +123,16 @@ impl Numbers {
             list.iter().map(|x| x.affine(&mut certificate)).collect()
         };
         let (b, b_tilde) = (affine(&pair.b)?, affine(&pair.b_tilde)?);
+        let gradient = match &pair.gradient {
+            Some(gradient) => Some(affine(gradient)?),
+            None => None,
+        };
         let certificate = certificate?;
         let solved = certificate.solved()?;
         let all = b
             .iter()
             .chain(&b_tilde)
+            .chain(gradient.iter().flatten())
             .chain(solved.weights.iter().flatten())
             .chain(solved.processor.iter().flat_map(|x| &x.weights));
         let unknowns: BTreeSet<usize> = all.flat_map(|x| x.factors.keys().copied()).collect();
@@ -133,6 +146,7 @@ impl Numbers {
             lower_triangular,
             b: &b,
             b_tilde: &b_tilde,
+            gradient: gradient.as_deref(),
             weights: solved.weights.as_deref(),
             processed: processor.map(|x| (&x.system, &x.arguments[..])),
             unknowns: unknowns.iter().filter_map(with_index).collect(),
@@ -160,6 +174,7 @@ impl Numbers {
             lower_triangular: Some(lower_triangular),
             b: list(&b),
             b_tilde: list(&b_tilde),
+            gradient: gradient.as_deref().map(list),
             matrices: None,
         })
     }

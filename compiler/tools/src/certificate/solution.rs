@@ -32,6 +32,8 @@ pub(super) struct Solution<'a> {
     pub lower_triangular: LowerTriangular,
     pub b: &'a [Affine],
     pub b_tilde: &'a [Affine],
+    /// The weights of gradient kicks.
+    pub gradient: Option<&'a [Affine]>,
     /// The fractions of a composition of Störmer–Verlet.
     pub weights: Option<&'a [Affine]>,
     /// The conditions of a processed composition, and all their arguments.
@@ -150,7 +152,14 @@ impl Solution<'_> {
         let point: BTreeMap<usize, BigRational> = point
             .map(|(index, x)| (*index, x.with_bits(COARSE).low()))
             .collect();
-        let symmetric = self.flows().iter().eq(self.flows().iter().rev());
+        let symmetric = self.flows().iter().eq(self.flows().iter().rev())
+            && self.gradient.is_none_or(|gradient| {
+                let zero = Affine::rational(BigRational::default());
+                // In the order of the flows there is one gradient weight for each kick.
+                let kicks = gradient.iter().zip(self.b_tilde);
+                let kicks = kicks.filter(|(g, kick)| **g != zero || **kick != zero);
+                kicks.clone().eq(kicks.rev())
+            });
         let residuals = |point: &BTreeMap<usize, BigRational>| {
             let at = |x: &Affine| {
                 let terms = x.factors.iter();
@@ -158,8 +167,12 @@ impl Solution<'_> {
                     sum + factor * &point[index]
                 })
             };
-            let [b, b_tilde] = [self.b, self.b_tilde].map(|list| list.iter().map(at).collect());
-            let pair = Partitioned::of_splitting(Rationals, self.lower_triangular, b, b_tilde);
+            let list = |list: &[Affine]| -> Vec<BigRational> { list.iter().map(at).collect() };
+            let (b, b_tilde) = (list(self.b), list(self.b_tilde));
+            let pair = Partitioned {
+                gradient: self.gradient.map(list),
+                ..Partitioned::of_splitting(Rationals, self.lower_triangular, b, b_tilde)
+            };
             one_of_each_rooting(&pair, (1..=order).step_by(if symmetric { 2 } else { 1 }))
         };
         let here = residuals(&point);

@@ -39,7 +39,7 @@ pub(super) fn write(table: &Table<'_>) -> String {
         ));
     }
     text.push_str(")\n");
-    if !table.matrices().is_empty() {
+    if !table.matrices().is_empty() && !table.tableau.has_gradient_kicks() {
         text.push_str(&constructors(table));
     }
     text

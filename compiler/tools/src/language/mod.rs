@@ -11,6 +11,8 @@
 //! | nodepy | a `RungeKuttaMethod` with entries of SymPy | Runge–Kutta methods |
 //! | TSV of RungeKutta.jl | doubles, as its `from_file` reads them | Runge–Kutta methods |
 //! | Coq | the exact table, and a theorem of its orders, symplecticity and symmetry | exact ones with algebraic coefficients |
+//!
+//! Methods with gradient kicks are written in LaTeX, C, Fortran, Julia and Python, with the weights `g_i` as one more vector.
 
 mod c;
 mod coq;
@@ -71,6 +73,22 @@ impl Language {
         Language::Coq,
     ];
 
+    /// The library that steps the method by its table, for which a table with gradient kicks has no form; `None` for tables as data.
+    fn library(self) -> Option<&'static str> {
+        match self {
+            Language::Latex
+            | Language::C
+            | Language::Fortran
+            | Language::Julia
+            | Language::Python => None,
+            Language::Sundials => Some("SUNDIALS"),
+            Language::Petsc => Some("PETSc"),
+            Language::Nodepy => Some("nodepy"),
+            Language::Tsv => Some("RungeKutta.jl"),
+            Language::Coq => Some("the theorem for Coq"),
+        }
+    }
+
     /// Writes a tableau. Decimals, as numbers or in comments, have `digits ≥ 1` significant digits.
     ///
     /// ```
@@ -87,6 +105,11 @@ impl Language {
     /// [`ErrorKind::NotExpressible`] for a method that the library, or its file, cannot express, and [`ErrorKind::NoTheorem`] for a method whose
     /// coefficients are not exactly known algebraic numbers.
     pub fn write(self, tableau: &Tableau, digits: usize) -> Result<String, Error> {
+        if let Some(library) = self.library()
+            && tableau.has_gradient_kicks()
+        {
+            return Err(not_expressible(library, "it has gradient kicks"));
+        }
         let table = Table::new(tableau, digits);
         match self {
             Language::Latex => Ok(latex::write(&table)),

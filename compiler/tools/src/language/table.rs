@@ -20,7 +20,7 @@ pub(crate) struct Table<'a> {
     pub tableau: &'a Tableau,
     /// The coefficients, without the matrices of long splittings.
     pub entries: Coefficients<Entry>,
-    /// The sequence of drifts and kicks, if the method consists of these for separable Hamiltonians.
+    /// The sequence of drifts and kicks, if the method consists of these for separable Hamiltonians, without gradient kicks.
     pub flows: Option<Vec<Flow>>,
     /// A name that is valid in every language: `gauss_2`.
     pub name: String,
@@ -111,9 +111,10 @@ impl<'a> Table<'a> {
         self.tableau.orders().class(class).order
     }
 
-    /// The order for every H; for drifts and kicks the order for separable H.
+    /// The order for every H; for drifts and kicks the order for separable H, and with gradient kicks for quadratic T.
     pub fn main_order(&self) -> usize {
         match self.flows {
+            _ if self.tableau.has_gradient_kicks() => self.order(HamiltonianClass::Nystrom),
             Some(_) => self.order(HamiltonianClass::Separable),
             None => self.order(HamiltonianClass::General),
         }
@@ -138,19 +139,23 @@ impl<'a> Table<'a> {
             );
         }
         let orders = self.tableau.orders();
-        let order = HamiltonianClass::ALL.map(|class| {
-            let found = orders.class(class);
-            let what = match class {
-                HamiltonianClass::General => "every H",
-                HamiltonianClass::Separable => "T(p) + U(q)",
-                HamiltonianClass::Nystrom => "T quadratic",
-            };
-            format!(
-                "{} for {what} ({})",
-                found.order,
-                evidence_text(found.evidence)
-            )
-        });
+        let classes = HamiltonianClass::ALL.into_iter();
+        let order = classes.filter(|class| orders.class(*class).exists());
+        let order: Vec<String> = order
+            .map(|class| {
+                let found = orders.class(class);
+                let what = match class {
+                    HamiltonianClass::General => "every H",
+                    HamiltonianClass::Separable => "T(p) + U(q)",
+                    HamiltonianClass::Nystrom => "T quadratic",
+                };
+                format!(
+                    "{} for {what} ({})",
+                    found.order,
+                    evidence_text(found.evidence)
+                )
+            })
+            .collect();
         lines.push(format!("order {}", order.join(", ")));
         let properties = self.tableau.properties();
         let both = [
@@ -170,6 +175,11 @@ impl<'a> Table<'a> {
             lines.push(held.join(", "));
         }
         if let Some(rule) = self.left_out() {
+            lines.push(rule.to_owned());
+        }
+        if self.tableau.has_gradient_kicks() {
+            let rule =
+                "gradient kicks with the force f: p += h (b_tilde_i f + 2 gradient_i h^2 f' f/M)";
             lines.push(rule.to_owned());
         }
         lines.push(format!(
@@ -198,11 +208,15 @@ impl<'a> Table<'a> {
             c_tilde,
             b,
             b_tilde,
+            gradient,
             ..
         } = &self.entries;
         let mut vectors: Vec<(_, &[Entry])> = vec![("c", c), ("b", b)];
         if !self.is_runge_kutta() {
             vectors.extend([("c_tilde", &c_tilde[..]), ("b_tilde", &b_tilde[..])]);
+        }
+        if !gradient.is_empty() {
+            vectors.push(("gradient", gradient));
         }
         vectors
     }
@@ -267,7 +281,7 @@ impl<'a> Table<'a> {
 
 /// The drifts and kicks of a method that consists of them.
 fn flows(tableau: &Tableau, digits: usize) -> Option<Vec<Flow>> {
-    if !tableau.properties().explicit.holds {
+    if !tableau.properties().explicit.holds || tableau.has_gradient_kicks() {
         return None;
     }
     let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());

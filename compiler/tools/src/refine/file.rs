@@ -40,12 +40,18 @@ struct ClaimTable {
 struct PrintedTable {
     kick: Option<List>,
     drift: Option<List>,
+    gradient: Option<List>,
     weights: Option<List>,
 }
 
 /// The lists of coefficients of a file.
 enum Lists<'a> {
-    Splitting { kick: &'a List, drift: &'a List },
+    Splitting {
+        kick: &'a List,
+        drift: &'a List,
+        /// The weights of gradient kicks.
+        gradient: Option<&'a List>,
+    },
     Weights(&'a List),
 }
 
@@ -112,8 +118,16 @@ pub(super) fn read_printed(file: Input<'_>, text: &Spanned<String>) -> Result<Pr
 
 impl PrintedTable {
     fn lists(&self) -> Result<Lists<'_>, String> {
+        let gradient = self.gradient.as_ref();
         match (&self.kick, &self.drift, &self.weights) {
-            (Some(kick), Some(drift), None) => Ok(Lists::Splitting { kick, drift }),
+            (Some(kick), Some(drift), None) => Ok(Lists::Splitting {
+                kick,
+                drift,
+                gradient,
+            }),
+            (None, None, _) if gradient.is_some() => {
+                Err("`gradient` goes with the `kick` and `drift` of a splitting".to_owned())
+            }
             (None, None, Some(weights)) => Ok(Lists::Weights(weights)),
             (None, None, None) => {
                 Err("printed are the `kick` and `drift` of a splitting, or the `weights` of a composition".to_owned())
@@ -134,8 +148,14 @@ impl Lists<'_> {
     fn entries(&self, file: Input<'_>) -> Result<Vec<Entry>, Error> {
         type Named<'a> = (&'a List, fn(usize) -> Coefficient);
         let lists: Vec<Named<'_>> = match self {
-            Lists::Splitting { kick, drift } => {
-                vec![(kick, Coefficient::Kick), (drift, Coefficient::Drift)]
+            Lists::Splitting {
+                kick,
+                drift,
+                gradient,
+            } => {
+                let both: [Named<'_>; 2] = [(kick, Coefficient::Kick), (drift, Coefficient::Drift)];
+                let gradient = gradient.map(|list| -> Named<'_> { (list, Coefficient::Gradient) });
+                both.into_iter().chain(gradient).collect()
             }
             Lists::Weights(weights) => vec![(weights, Coefficient::Weight)],
         };
@@ -168,14 +188,14 @@ impl Lists<'_> {
 }
 
 fn splitting(entries: &[Entry]) -> Splitting {
-    let of = |kick: bool| {
-        let of_kind = |entry: &&Entry| matches!(entry.name, Coefficient::Kick(_)) == kick;
-        let entries = entries.iter().filter(of_kind);
+    let of = |is_named: fn(&Coefficient) -> bool| {
+        let entries = entries.iter().filter(|entry| is_named(&entry.name));
         entries.map(|entry| entry.printed.clone()).collect()
     };
     Splitting {
-        kick: of(true),
-        drift: of(false),
+        kick: of(|name| matches!(name, Coefficient::Kick(_))),
+        drift: of(|name| matches!(name, Coefficient::Drift(_))),
+        gradient: of(|name| matches!(name, Coefficient::Gradient(_))),
     }
 }
 
@@ -255,6 +275,16 @@ fn in_file(
         }
         CertifyError::Lengths { .. } | CertifyError::Stages { .. } => {
             wrong_file(file, lists.span("drifts"), message)
+        }
+        CertifyError::GradientLengths { .. } => {
+            let Lists::Splitting {
+                gradient: Some(gradient),
+                ..
+            } = lists
+            else {
+                return wrong_file(file, claim, message);
+            };
+            wrong_file(file, gradient.span(), message)
         }
         CertifyError::Order { .. } => wrong_file(file, claim, message),
         CertifyError::WeightSum { what, .. } => not_certified(lists.span(what), message),

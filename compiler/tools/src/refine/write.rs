@@ -37,6 +37,8 @@ pub(super) struct Report {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     drift: Vec<Entry>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    gradient: Vec<Entry>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     weights: Vec<Entry>,
 }
 
@@ -130,6 +132,7 @@ pub(super) fn report(refinement: &Refinement, digits: usize) -> Result<Report, E
         digits,
         kick: Vec::new(),
         drift: Vec::new(),
+        gradient: Vec::new(),
         weights: Vec::new(),
     };
     for (name, printed) in &refinement.printed {
@@ -140,6 +143,7 @@ pub(super) fn report(refinement: &Refinement, digits: usize) -> Result<Report, E
         let list = match name {
             Coefficient::Kick(_) => &mut report.kick,
             Coefficient::Drift(_) => &mut report.drift,
+            Coefficient::Gradient(_) => &mut report.gradient,
             Coefficient::Weight(_) | Coefficient::Processor(_) => &mut report.weights,
         };
         list.push(Entry {
@@ -221,7 +225,13 @@ pub(super) fn text(refinement: &Refinement, digits: usize) -> Result<String, Err
         let others = report.could_be_wrong_instead.join(" or ");
         line("", &format!("the wrong number could be {others} instead"));
     }
-    for list in [&report.kick, &report.drift, &report.weights] {
+    let lists = [
+        &report.kick,
+        &report.drift,
+        &report.gradient,
+        &report.weights,
+    ];
+    for list in lists {
         let width = list.iter().map(|entry| entry.name.to_string().len());
         let width = width.max().unwrap_or(0);
         if !list.is_empty() {

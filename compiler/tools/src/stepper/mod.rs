@@ -109,6 +109,11 @@ impl Stepper {
         class: Option<SteppedClass>,
         system: Option<(&System, &Structure)>,
     ) -> Result<String, Error> {
+        if tableau.has_gradient_kicks() {
+            return Err(plan::refused(
+                "it has gradient kicks, which a stepper in another language does not take; `tableau!` takes them",
+            ));
+        }
         let table = Table::new(tableau, DIGITS);
         let class = match system {
             None => class,

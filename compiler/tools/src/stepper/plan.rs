@@ -139,6 +139,6 @@ impl Coupled {
     }
 }
 
-fn refused(reason: &'static str) -> Error {
+pub(super) fn refused(reason: &'static str) -> Error {
     ErrorKind::NoStepper { reason }.into()
 }

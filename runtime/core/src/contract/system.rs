@@ -6,7 +6,9 @@ use num_traits::Zero;
 use crate::contract::Jacobian;
 use crate::contract::{Class, LaneWork, Masses, Solver};
 use crate::error::Error;
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector, WideF64x4, WideF64x8, WidestF64x8};
+use crate::number::{
+    F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8, WidestF64x8,
+};
 
 /// A Hamiltonian system over one type of vectors, as an [`Integrator`](crate::Integrator) steps it.
 ///
@@ -75,6 +77,14 @@ pub trait System<V: Vector>: Sized {
 
     /// Writes −∂H/∂q at `(time, q, p)`, plus the [applied force](Self::applied_force), into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
+
+    /// Whether there is a [`force_gradient`](Self::force_gradient), which methods with gradient kicks need.
+    const FORCE_GRADIENT: bool = false;
+
+    /// Writes the force gradient into `gradient`: see [`SeparableHamiltonian::force_gradient`](crate::SeparableHamiltonian::force_gradient).
+    fn force_gradient(&self, _time: V::Scalar, _q: &V, _force: &V, gradient: &mut V) {
+        gradient.as_mut_slice().fill(V::Scalar::from_f64(f64::NAN));
+    }
 
     /// Velocity and force at once, with the same bits: see [`Hamiltonian::slopes`](crate::Hamiltonian::slopes).
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -9,6 +9,10 @@ use crate::contract::{
 use crate::error::Quantity;
 use crate::number::{Coefficient, Summation, Vector};
 
+/// The error of a program that steps a system without a force gradient by a method with gradient kicks.
+const NO_FORCE_GRADIENT: &str = "this method has gradient kicks: the system has to give `force_gradient`, with \
+    `const FORCE_GRADIENT: bool = true`; a formula gives it if its kinetic energy is quadratic with constant masses";
+
 /// How a splitting takes one step of a system of one [`Class`]. Every evaluation enters the later stages with its full weight, so it is
 /// applied to the state at once, and no stage is stored.
 pub trait SplittingPlan {
@@ -79,6 +83,37 @@ where
             weight,
             state.q,
             &self.evaluations.force,
+            (state.p, state.p_low),
+        );
+    }
+
+    /// Evaluates the [force gradient](System::force_gradient) of a stage, from 1, with the latest force.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn force_gradient(&mut self, stage: usize, time: Coefficient) {
+        const { assert!(S::FORCE_GRADIENT, "{}", NO_FORCE_GRADIENT) }
+        let Evaluations { velocity, force } = &mut *self.evaluations;
+        (self.system).force_gradient(self.span.at(time), self.state.q, force, velocity);
+        (self.observer).evaluation(Quantity::Force, stage, &*self.state.q, velocity);
+    }
+
+    /// [`force_gradient`](Self::force_gradient), unless the previous step has kept it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn kept_force_gradient(&mut self, stage: usize, time: Coefficient) {
+        if !self.kept {
+            self.force_gradient(stage, time);
+        }
+    }
+
+    /// Adds `(h³ weight) force_gradient` to the momentum.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn gradient_kick(&mut self, weight: Coefficient) {
+        let (state, h) = (&mut self.state, self.span.size);
+        // Until the next drift the slot of the velocity has the force gradient.
+        self.kick_drift.kick::<R, V>(
+            h * h * h,
+            weight,
+            state.q,
+            &self.evaluations.velocity,
             (state.p, state.p_low),
         );
     }

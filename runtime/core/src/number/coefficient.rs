@@ -96,4 +96,26 @@ pub struct Coefficients {
     pub c: &'static [Coefficient],
     /// `c̃_i = Σ_j ã_ij`.
     pub c_tilde: &'static [Coefficient],
+    /// `g_i` of gradient kicks; empty for methods without such kicks.
+    pub gradient: &'static [Coefficient],
+}
+
+/// The matrices and the weights, each for positions and for momenta.
+type Matrices = [&'static [&'static [Coefficient]]; 2];
+type Weights = [&'static [Coefficient]; 2];
+
+impl Coefficients {
+    /// Those of a method without gradient kicks.
+    #[doc(hidden)]
+    pub const fn new([a, a_tilde]: Matrices, [b, b_tilde]: Weights, [c, c_tilde]: Weights) -> Self {
+        Self {
+            a,
+            a_tilde,
+            b,
+            b_tilde,
+            c,
+            c_tilde,
+            gradient: &[],
+        }
+    }
 }

@@ -24,6 +24,13 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::force::<V::Scalar>(self, time, q, p, force);
     }
 
+    const FORCE_GRADIENT: bool = H::FORCE_GRADIENT;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn force_gradient(&self, time: V::Scalar, q: &V, force: &V, gradient: &mut V) {
+        Hamiltonian::force_gradient::<V::Scalar>(self, time, q, force, gradient);
+    }
+
     const FORCED: bool = H::FORCED;
     const WELL_DECLARED: bool = H::WELL_DECLARED;
 

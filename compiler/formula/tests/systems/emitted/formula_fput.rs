@@ -51,6 +51,8 @@ const _: () = {
                 + T::from_f64(self.beta) * (stretch * (stretch * stretch));
             value
         }
+        const FORCE_GRADIENT: bool = true;
+        #[inline(always)]
         fn stiffness<T: Scalar>(
             &self,
             time: T,

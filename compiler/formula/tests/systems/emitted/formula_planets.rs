@@ -119,6 +119,59 @@ const _: () = {
                 force[i][2] += -x1;
             }
         }
+        const FORCE_GRADIENT: bool = true;
+        #[inline(always)]
+        fn force_gradient<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            force: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            gradient: &mut ::symplectic::nalgebra::SMatrix<T, 3, N>,
+        ) {
+            let p = force;
+            let q = &q.data.0;
+            let p = &p.data.0;
+            let gradient = &mut gradient.data.0;
+            gradient.as_flattened_mut().fill(T::zero());
+            for i in 0..N {
+                let mut x1 = T::zero();
+                let mut x2 = T::zero();
+                let mut x3 = T::zero();
+                let x4 = 1.0 / self.m[i];
+                let x5 = T::from_f64(x4) * p[i][2];
+                let x6 = T::from_f64(x4) * p[i][1];
+                let x7 = T::from_f64(x4) * p[i][0];
+                let x8 = self.G * self.m[i];
+                for j in i + 1..N {
+                    let x9 = x8 * self.m[j];
+                    let x10 = q[i][0] - q[j][0];
+                    let x11 = q[i][1] - q[j][1];
+                    let x12 = q[i][2] - q[j][2];
+                    let x13 = x10 * x10 + x11 * x11 + x12 * x12;
+                    let x14 = x13.sqrt();
+                    let x15 = T::from_f64(x9) / (x13 * x14);
+                    let x16 = 1.0 / self.m[j];
+                    let x17 = x5 - T::from_f64(x16) * p[j][2];
+                    let x18 = x7 - T::from_f64(x16) * p[j][0];
+                    let x19 = x6 - T::from_f64(x16) * p[j][1];
+                    let x20 = T::from_f64(x9)
+                        * (T::from_f64(2.0) * x10 * x18 + T::from_f64(2.0) * x11 * x19
+                            + T::from_f64(2.0) * x12 * x17) / (x13 * x13 * x14);
+                    let x21 = x15 * x17 - T::from_f64(1.5) * x12 * x20;
+                    x1 += x21;
+                    let x22 = x15 * x19 - T::from_f64(1.5) * x11 * x20;
+                    x2 += x22;
+                    let x23 = x15 * x18 - T::from_f64(1.5) * x10 * x20;
+                    x3 += x23;
+                    gradient[j][0] += x23;
+                    gradient[j][1] += x22;
+                    gradient[j][2] += x21;
+                }
+                gradient[i][0] += -x3;
+                gradient[i][1] += -x2;
+                gradient[i][2] += -x1;
+            }
+        }
         fn energy<T: Scalar>(
             &self,
             time: T,
@@ -291,6 +344,59 @@ const _: () = {
                 force[i][0] += -x3;
                 force[i][1] += -x2;
                 force[i][2] += -x1;
+            }
+        }
+        const FORCE_GRADIENT: bool = true;
+        #[inline(always)]
+        fn force_gradient<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            force: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            gradient: &mut ::symplectic::nalgebra::SMatrix<T, 3, N>,
+        ) {
+            let p = force;
+            let q = &q.data.0;
+            let p = &p.data.0;
+            let gradient = &mut gradient.data.0;
+            gradient.as_flattened_mut().fill(T::zero());
+            for i in 0..N {
+                let mut x1 = T::zero();
+                let mut x2 = T::zero();
+                let mut x3 = T::zero();
+                let x4 = T::from_lanes(&self.m[i]).recip();
+                let x5 = x4 * p[i][2];
+                let x6 = x4 * p[i][1];
+                let x7 = x4 * p[i][0];
+                let x8 = T::from_lanes(&self.G) * T::from_lanes(&self.m[i]);
+                for j in i + 1..N {
+                    let x9 = x8 * T::from_lanes(&self.m[j]);
+                    let x10 = q[i][0] - q[j][0];
+                    let x11 = q[i][1] - q[j][1];
+                    let x12 = q[i][2] - q[j][2];
+                    let x13 = x10 * x10 + x11 * x11 + x12 * x12;
+                    let x14 = x13.sqrt();
+                    let x15 = x9 / (x13 * x14);
+                    let x16 = T::from_lanes(&self.m[j]).recip();
+                    let x17 = x5 - x16 * p[j][2];
+                    let x18 = x7 - x16 * p[j][0];
+                    let x19 = x6 - x16 * p[j][1];
+                    let x20 = x9
+                        * (T::from_f64(2.0) * x10 * x18 + T::from_f64(2.0) * x11 * x19
+                            + T::from_f64(2.0) * x12 * x17) / (x13 * x13 * x14);
+                    let x21 = x15 * x17 - T::from_f64(1.5) * x12 * x20;
+                    x1 += x21;
+                    let x22 = x15 * x19 - T::from_f64(1.5) * x11 * x20;
+                    x2 += x22;
+                    let x23 = x15 * x18 - T::from_f64(1.5) * x10 * x20;
+                    x3 += x23;
+                    gradient[j][0] += x23;
+                    gradient[j][1] += x22;
+                    gradient[j][2] += x21;
+                }
+                gradient[i][0] += -x3;
+                gradient[i][1] += -x2;
+                gradient[i][2] += -x1;
             }
         }
     }

@@ -26,11 +26,13 @@ pub(super) fn write(table: &Table<'_>) -> String {
     let lists = flows.or_else(|| wide.then(|| halves.iter().map(Half::lists).collect()));
     let text = comments("%", &table.description());
     if let Some(lists) = lists {
+        let gradient = gradient(table, &mut legend);
         return format!(
-            "{text}% needs \\usepackage{{booktabs}} and \\usepackage{{longtable}}\n{{\\renewcommand{{\\arraystretch}}{{1.5}}\n{lists}}}\n{legend}",
+            "{text}% needs \\usepackage{{booktabs}} and \\usepackage{{longtable}}\n{{\\renewcommand{{\\arraystretch}}{{1.5}}\n{lists}}}\n{gradient}{legend}",
             legend = legend.text()
         );
     }
+    let gradient = gradient(table, &mut legend);
     let stretch = "\\[\n\\renewcommand{\\arraystretch}{1.5}\n";
     let between = if widths.iter().sum::<f64>() + 4.0 > LINE {
         format!("\\]\n{stretch}")
@@ -39,10 +41,23 @@ pub(super) fn write(table: &Table<'_>) -> String {
     };
     let arrays: Vec<String> = halves.iter().map(Half::array).collect();
     format!(
-        "{text}% needs \\usepackage{{amsmath}} and \\usepackage{{booktabs}}\n{stretch}{}\\]\n{}",
+        "{text}% needs \\usepackage{{amsmath}} and \\usepackage{{booktabs}}\n{stretch}{}\\]\n{gradient}{}",
         arrays.join(&between),
         legend.text()
     )
+}
+
+/// The weights of gradient kicks, if there are any.
+fn gradient(table: &Table<'_>, legend: &mut Legend<'_>) -> String {
+    let weights = table.entries.gradient.iter();
+    let weights: Vec<String> = weights.map(|entry| legend.cell(entry)).collect();
+    match weights.is_empty() {
+        true => String::new(),
+        false => format!(
+            "\\[\ng = ({}), \\qquad p \\mathrel{{+}}= h\\,(\\tilde b_i f + 2 g_i h^2 f' M^{{-1}} f)\n\\]\n",
+            weights.join(", ")
+        ),
+    }
 }
 
 /// The tableau for positions or for momenta, in LaTeX.

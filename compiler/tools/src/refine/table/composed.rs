@@ -103,7 +103,12 @@ pub(super) fn explicit_pair(
         kick.insert(0, Printed::zero());
         drift.push(Printed::zero());
     }
-    let certificate = or_nearest(certify(&Splitting { kick, drift }, &claim), nearest);
+    let splitting = Splitting {
+        kick,
+        drift,
+        gradient: Vec::new(),
+    };
+    let certificate = or_nearest(certify(&splitting, &claim), nearest);
     let certificate = certificate.map_err(|error| refused(error.to_string()))?;
     let shift = usize::from(!kicks_first);
     let terms = |cell: &Cell| -> Terms {

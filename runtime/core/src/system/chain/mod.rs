@@ -26,6 +26,10 @@ pub trait Bonds {
     /// Whether the tension and the outer force are inlined everywhere: see [`Hamiltonian::INLINED`](crate::Hamiltonian::INLINED).
     const INLINED: bool = false;
 
+    /// Whether the second derivatives of the energies are known, with which there is a
+    /// [`force_gradient`](crate::SeparableHamiltonian::force_gradient).
+    const FORCE_GRADIENT: bool = false;
+
     /// The derivative `V′` of the energy of a bond at `stretch = q_{i+1} − q_i`. A positive value pulls the left particle to the right and
     /// the right one to the left.
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
@@ -65,6 +69,7 @@ pub trait Bonds {
 
 impl<B: Bonds> Bonds for &B {
     const INLINED: bool = B::INLINED;
+    const FORCE_GRADIENT: bool = B::FORCE_GRADIENT;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
@@ -76,10 +81,12 @@ impl<B: Bonds> Bonds for &B {
         (**self).outer_force(time, position)
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Scalar>(&self, time: T, stretch: T) -> Option<T> {
         (**self).stiffness(time, stretch)
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn outer_stiffness<T: Scalar>(&self, time: T, position: T) -> Option<T> {
         (**self).outer_stiffness(time, position)
     }
@@ -196,6 +203,13 @@ impl<B: Bonds> Chain<B> {
             Ends::Free => T::zero(),
             Ends::Ring => self.bonds.tension(time, first - last),
         }
+    }
+
+    /// The derivative of the tension of a bond along that of its stretch.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn pull<T: Scalar>(&self, time: T, stretch: T, along: T) -> T {
+        let stiffness = self.bonds.stiffness(time, stretch);
+        stiffness.unwrap_or(T::from_f64(f64::NAN)) * along
     }
 
     /// The force on particles between two tensions.
@@ -356,6 +370,44 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             return self.forces_on_doubles(time, q, force);
         }
         self.forces::<V::Scalar, Single>(time, q, force);
+    }
+
+    const FORCE_GRADIENT: bool = B::FORCE_GRADIENT;
+
+    /// Bond by bond `V″ (f_{i+1} − f_i)`, and on each particle `−W″ f_i`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn force_gradient(&self, time: V::Scalar, q: &V, force: &V, gradient: &mut V) {
+        let (q, force) = (q.as_slice(), force.as_slice());
+        let gradient = gradient.as_mut_slice();
+        let n = q.len().min(force.len()).min(gradient.len());
+        let (q, force, gradient) = (&q[..n], &force[..n], &mut gradient[..n]);
+        let zero = V::Scalar::zero();
+        let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
+            return;
+        };
+        let (first_force, last_force) = (force[0], force[n - 1]);
+        let mut left = match self.ends {
+            Ends::Walls => self.pull(time, first, first_force),
+            Ends::Free => zero,
+            Ends::Ring => self.pull(time, first - last, first_force - last_force),
+        };
+        for i in 0..n {
+            let right = if i + 1 < n {
+                self.pull(time, q[i + 1] - q[i], force[i + 1] - force[i])
+            } else {
+                match self.ends {
+                    Ends::Walls => self.pull(time, -last, -last_force),
+                    Ends::Free => zero,
+                    Ends::Ring => self.pull(time, first - last, first_force - last_force),
+                }
+            };
+            let outer = self.bonds.outer_force(time, q[i]).map(|_| {
+                let stiffness = self.bonds.outer_stiffness(time, q[i]);
+                stiffness.unwrap_or(V::Scalar::from_f64(f64::NAN)) * force[i]
+            });
+            gradient[i] = right - left - outer.unwrap_or(zero);
+            left = right;
+        }
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {

@@ -24,6 +24,13 @@ macro_rules! chain_system {
                 $crate::System::force(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, force);
             }
 
+            const FORCE_GRADIENT: bool = <Self as $crate::emitted::Bonds>::FORCE_GRADIENT;
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn force_gradient(&self, time: V::Scalar, q: &V, force: &V, gradient: &mut V) {
+                $crate::System::force_gradient(&$crate::emitted::Chain::$ends($bonds(self)), time, q, force, gradient);
+            }
+
             fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
                 $crate::System::energy(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p)
             }
