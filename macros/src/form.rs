@@ -21,6 +21,7 @@ impl Form {
             Form::Splitting => &[
                 Key::Kick,
                 Key::Drift,
+                Key::Gradient,
                 Key::First,
                 Key::Processor,
                 Key::Claim,

@@ -43,6 +43,8 @@ fn read(text: &str) -> Result<Option<(RunTimeCoefficients, Orders)>, toml::de::E
             b_tilde: list(decimals("b_tilde")?)?,
             c: list(decimals("c")?)?,
             c_tilde: list(decimals("c_tilde")?)?,
+            // Refused if it is not empty.
+            gradient: decimals("gradient").and_then(list).unwrap_or_default(),
         };
         let orders = Orders {
             general: order("general")?,

@@ -17,6 +17,7 @@ pub fn tableau(name: &str, exact: &Tableau) -> Result<RunTimeTableau, TableauErr
         b_tilde,
         c,
         c_tilde,
+        gradient,
     } = exact.to_f64();
     let coefficients = RunTimeCoefficients {
         a,
@@ -25,6 +26,7 @@ pub fn tableau(name: &str, exact: &Tableau) -> Result<RunTimeTableau, TableauErr
         b_tilde,
         c,
         c_tilde,
+        gradient,
     };
     let orders = exact.orders();
     let order = |order: usize| u32::try_from(order).unwrap_or(u32::MAX);

@@ -79,6 +79,7 @@ macro_rules! constants {
             b_tilde: <$method>::B_TILDE.to_vec(),
             a: <$method>::A.iter().map(|row| row.to_vec()).collect(),
             a_tilde: <$method>::A_TILDE.iter().map(|row| row.to_vec()).collect(),
+            gradient: Vec::new(),
         }
     };
 }
@@ -122,6 +123,7 @@ fn runtime<M: Method>() -> Coefficients<Coefficient> {
         b_tilde: of.b_tilde.to_vec(),
         a: matrix(of.a),
         a_tilde: matrix(of.a_tilde),
+        gradient: of.gradient.to_vec(),
     }
 }
 

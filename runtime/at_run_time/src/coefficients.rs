@@ -26,6 +26,8 @@ pub struct RunTimeCoefficients {
     pub c: Vec<f64>,
     /// `c̃_i = Σ_j ã_ij`
     pub c_tilde: Vec<f64>,
+    /// `g_i` of gradient kicks, which only emitted methods take: a tableau at run time has none.
+    pub gradient: Vec<f64>,
 }
 
 /// The coefficients of an emitted method: `Midpoint::COEFFICIENTS.into()`.
@@ -40,6 +42,7 @@ impl From<Coefficients> for RunTimeCoefficients {
             b_tilde: doubles(exact.b_tilde),
             c: doubles(exact.c),
             c_tilde: doubles(exact.c_tilde),
+            gradient: doubles(exact.gradient),
         }
     }
 }

@@ -14,6 +14,12 @@ pub enum TableauError {
     #[error("the tableau has no stages; give at least one weight")]
     NoStages,
 
+    /// There are gradient kicks.
+    #[error(
+        "the tableau has gradient kicks, which only a method that a macro emits takes: `tableau! {{ Name {{ base: chin-1997-c }} }}`"
+    )]
+    GradientKicks,
+
     /// A list or a row does not have an entry for each stage.
     #[error("{what}{} has {found} entries and the tableau {expected} stages", OfRow(*.row))]
     Shape {
@@ -139,10 +145,14 @@ pub(crate) fn check(
         b_tilde,
         c,
         c_tilde,
+        gradient,
     } = coefficients;
     let stages = b.len();
     if stages == 0 {
         return Err(TableauError::NoStages);
+    }
+    if gradient.iter().any(|&weight| weight != 0.0) {
+        return Err(TableauError::GradientKicks);
     }
     for (what, list) in [("b", b), ("b̃", b_tilde), ("c", c), ("c̃", c_tilde)] {
         check_list(what, None, list, stages)?;

@@ -68,6 +68,7 @@ impl Graph {
             b_tilde,
             c,
             c_tilde,
+            gradient: _,
         } = coefficients;
         let stages = b.len();
         let groups = |matrix: &[Vec<f64>]| -> Vec<Vec<usize>> {

@@ -77,6 +77,7 @@ use crate::schedule::Schedule;
 ///     b_tilde: vec![1.0],
 ///     c: vec![0.5],
 ///     c_tilde: vec![0.5],
+///     gradient: Vec::new(),
 /// };
 /// let orders = Orders { general: 2, separable: 2, nystrom: 2 };
 /// let midpoint = RunTimeTableau::new("midpoint", &midpoint, orders)?;
@@ -113,6 +114,7 @@ impl RunTimeTableau {
     ///
     /// [`TableauError`], with the row that is wrong:
     ///
+    /// * [`GradientKicks`](TableauError::GradientKicks);
     /// * [`Shape`](TableauError::Shape) and [`NotFinite`](TableauError::NotFinite);
     /// * [`Weights`](TableauError::Weights) if weights do not sum to 1;
     /// * [`Node`](TableauError::Node) if a node is not the sum of its row;
@@ -277,6 +279,7 @@ impl Method for RunTimeTableau {
             b_tilde,
             c,
             c_tilde,
+            gradient: _,
         } = &self.data.coefficients;
         let mut text = String::from("at run time:");
         let lists = [b, b_tilde, c, c_tilde].into_iter();

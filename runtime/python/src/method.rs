@@ -78,6 +78,7 @@ impl Method {
             a_tilde,
             b,
             b_tilde,
+            gradient: Vec::new(),
         };
         let [general, separable, nystrom] = orders;
         let orders = Orders {

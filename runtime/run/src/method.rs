@@ -122,6 +122,7 @@ pub fn stepping(tableau: &Tableau, holonomic: Option<bool>) -> Result<RunTimeTab
         b_tilde: numbers.b_tilde,
         c: numbers.c,
         c_tilde: numbers.c_tilde,
+        gradient: numbers.gradient,
     };
     let name = tableau.name().unwrap_or("a method without a name");
     let made = RunTimeTableau::new(name, &coefficients, orders)?;

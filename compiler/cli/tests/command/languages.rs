@@ -151,6 +151,7 @@ fn bits(tableau: &Tableau, part: &str) -> Vec<u64> {
         b_tilde,
         a,
         a_tilde,
+        gradient,
     } = tableau.to_f64();
     let values = match part {
         "c" => c,
@@ -159,12 +160,13 @@ fn bits(tableau: &Tableau, part: &str) -> Vec<u64> {
         "b_tilde" => b_tilde,
         "a" => a.concat(),
         "a_tilde" => a_tilde.concat(),
+        "gradient" => gradient,
         other => panic!("{other}"),
     };
     values.into_iter().map(f64::to_bits).collect()
 }
 
-const PARTS: [&str; 6] = ["c", "b", "c_tilde", "b_tilde", "a", "a_tilde"];
+const PARTS: [&str; 7] = ["c", "b", "c_tilde", "b_tilde", "a", "a_tilde", "gradient"];
 
 /// Compares lines `method part bits bits …` with the tableaux; returns how many numbers were compared.
 fn compare(lines: &str, methods: &[(&Tableau, String)]) -> usize {

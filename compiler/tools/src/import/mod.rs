@@ -196,6 +196,11 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
         let place = source.place(if nodes.is_some() { c } else { a });
         half(list(a)?, weights, nodes, limits).map_err(|kind| input.error(&place, kind))
     };
+    if found("a_tilde") && found("gradient") {
+        let message = "the method has gradient kicks, which are not imported: define it by `kick`, `drift` and `gradient`";
+        let message = message.to_owned();
+        return Err(input.error(&source.place("gradient"), ErrorKind::Document { message }));
+    }
     let positions = table(a, "b", "c")?;
     let momenta = match found("a_tilde") {
         true => Some(table(

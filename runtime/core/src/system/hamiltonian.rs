@@ -458,6 +458,21 @@ pub trait SeparableHamiltonian {
     /// # Ok(())
     /// # }
     /// ```
+    ///
+    /// Without it a program does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Error, Integrator, State, acceleration};
+    ///
+    /// symplectic::tableau! { Chin { base: chin-1997-c } }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
+    /// Integrator::new(Chin, pendulum, State::from_arrays(0.0, [1.0], [0.0]), 0.1)?.step()?;
+    /// # Ok(())
+    /// # }
+    /// ```
     fn force_gradient<T: Scalar>(
         &self,
         _time: T,

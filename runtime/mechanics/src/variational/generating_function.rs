@@ -143,6 +143,10 @@ pub fn generating_function<
     p1: &V,
     step_size: f64,
 ) -> Result<GeneratingFunction<V>, Error> {
+    const {
+        let reason = "a method with gradient kicks has no generating function here";
+        assert!(M::COEFFICIENTS.gradient.is_empty(), "{}", reason);
+    }
     check_step_size(step_size)?;
     check_state(time, q0, p1, q0.dimension())?;
     system.check_dimension(q0.dimension())?;

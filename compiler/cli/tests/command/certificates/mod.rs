@@ -1,5 +1,7 @@
 //! What certificates and tables claim, checked by a program in Python that shares no code with the compiler.
 
+mod gradient;
+
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::Command;
