@@ -102,6 +102,9 @@ symplectic::composition! {
     /// Blanes & Moan SRKN 11b, order 6 for quadratic kinetic energy.
     pub BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b }
 
+    /// Blanes, Casas & Escorihuela-Tomàs, order 8 for quadratic kinetic energy.
+    pub BlanesA19 { base: blanes-casas-escorihuela-2022-a19 }
+
     /// Blanes and others, for perturbed systems.
     pub BlanesPerturbed { base: blanes-2013-aba-10-6-4 }
 

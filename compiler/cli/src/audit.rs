@@ -12,9 +12,10 @@ use crate::output;
 
 /// Compare the claims of libraries about their tables with proofs.
 ///
-/// A file contains the library, its version and source, the `convention` by which it uses the numbers of its tables (or `[steps]`, which names the lists), and
-/// these tables with their claims; `tableaux/libraries/` contains such files. Next to each proved order the output shows
-/// the order observed in steps of a pendulum of its class. The exit status is 1 if a proved order differs from the observed order.
+/// A file contains the library, its version and source, the `convention` by which it uses the numbers of its tables, or
+/// `[steps]`, which names their lists, and these tables with their claims; `tableaux/libraries/` contains such files. Next to each
+/// proved order the output shows the order observed in steps of a pendulum of its class. The exit status is 1 if a proved order
+/// differs from the observed order.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files, or folders with files named .toml.

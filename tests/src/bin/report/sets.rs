@@ -6,9 +6,9 @@ use symplectic::system::Unconstrained;
 use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
-    BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
-    Gauss6, Gauss8, KahanLi8, Lobatto3, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler,
-    VelocityVerlet, Yoshida8,
+    BlanesA19, BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth,
+    Gauss2, Gauss4, Gauss6, Gauss8, KahanLi8, Lobatto3, SofroniouSpaletta10, StoermerVerlet,
+    SymplecticEuler, VelocityVerlet, Yoshida8,
 };
 
 /// Adds a set of methods to a problem.
@@ -36,7 +36,9 @@ where
         VelocityVerlet "Störmer–Verlet" plain,
         ForestRuth "Forest–Ruth" plain,
         BlanesMoanS10 "Blanes–Moan S10" plain,
+        BlanesMoanSrkn11b "Blanes–Moan SRKN 11b" plain,
         BlanesMoanSrkn14a "Blanes–Moan SRKN 14a" plain,
+        BlanesA19 "Blanes–Casas–Escorihuela A19" plain,
         KahanLi8 "Kahan–Li 8" plain,
         SofroniouSpaletta10 "Sofroniou–Spaletta 10" plain,
     )
@@ -51,7 +53,6 @@ where
     run!(problem, integrator => Ok(integrator);
         SymplecticEuler "Symplectic Euler" plain,
         BlanesMoanS6 "Blanes–Moan S6" plain,
-        BlanesMoanSrkn11b "Blanes–Moan SRKN 11b" plain,
         Yoshida8 "Yoshida 8" plain,
         BlanesMoanSrkn14a "SRKN 14a, compensated" new,
         Lobatto3 "Lobatto 3" plain,
