@@ -39,6 +39,9 @@ struct Arguments {
     /// Force evaluations a step. For a composition these are its steps of Störmer–Verlet.
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=40))]
     kicks: u16,
+    /// For `--class nystrom`: how many of the kicks, the innermost ones, are gradient kicks. Each counts as two force evaluations.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    gradient: u16,
     /// The structure.
     #[arg(long, value_enum, default_value_t = Shape::Aba)]
     structure: Shape,
@@ -164,7 +167,26 @@ impl Arguments {
                 first + 1
             )));
         }
+        let kicks = self.kicks + u16::from(structure == Structure::Bab);
+        if self.gradient > 0 && !matches!(claim, Claim::Nystrom(_)) {
+            return Err(refused(
+                "gradient kicks need a quadratic kinetic energy: `--class nystrom`".to_owned(),
+            ));
+        }
+        if self.gradient > kicks
+            || (self.gradient > 0 && structure.is_symmetric() && (kicks - self.gradient) % 2 == 1)
+        {
+            return Err(refused(format!(
+                "a palindrome of {kicks} kicks has {} gradient kicks in its middle: give `--gradient` such a number",
+                if kicks % 2 == 0 {
+                    "0, 2, 4, …"
+                } else {
+                    "0, 1, 3, 5, …"
+                }
+            )));
+        }
         let mut problem = Problem {
+            gradient: usize::from(self.gradient),
             claim,
             structure,
             kicks: usize::from(self.kicks),

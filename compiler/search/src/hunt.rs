@@ -24,8 +24,10 @@ pub struct Problem {
     pub claim: Claim,
     /// The structure.
     pub structure: Structure,
-    /// Force evaluations a step.
+    /// Kicks a step.
     pub kicks: usize,
+    /// How many of them are gradient kicks, the innermost ones. Each counts as two force evaluations.
+    pub gradient: usize,
     /// The norm of the error that is minimised.
     pub norm: Norm,
     /// The largest absolute value of a coefficient. It is a soft bound: a method may exceed it a little.
@@ -133,16 +135,23 @@ impl Problem {
         }
     }
 
+    /// Force evaluations a step; a gradient kick counts as two.
+    #[must_use]
+    pub fn forces(&self) -> usize {
+        // The last kick and the first one of the next step are one.
+        self.kicks + self.gradient.min(self.kicks)
+    }
+
     /// The efficiency `s C^{1/p}` of a method with an error constant: the force evaluations in a unit of time at which the error is 1.
     #[must_use]
     pub fn efficiency(&self, error: f64) -> f64 {
-        self.kicks as f64 * error.powf(1.0 / self.compared_in().1 as f64)
+        self.forces() as f64 * error.powf(1.0 / self.compared_in().1 as f64)
     }
 
     /// The number of unknowns.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        Model::new(self.structure, self.kicks).unknowns()
+        Model::new(self.structure, self.kicks, self.gradient).unknowns()
     }
 
     /// The difference of the degrees of the two leading terms of the error, and of successive orders.
@@ -160,20 +169,24 @@ impl Problem {
             Norm::Perturbed { epsilon } => format!("error constant for ε = {epsilon}"),
             Norm::Cost { tolerance } => format!("cost at an error of {tolerance:e}"),
         };
+        let gradient = match self.gradient {
+            0 => String::new(),
+            count => format!(", {count} of them with gradients"),
+        };
         let dispersion = if self.dispersion {
             ", dispersion of higher order"
         } else {
             ""
         };
         format!(
-            "{}{dispersion}, {structure} with {kicks} kicks, least {norm}, coefficients up to {}, stable up to hω = {} a kick",
+            "{}{dispersion}, {structure} with {kicks} kicks{gradient}, least {norm}, coefficients up to {}, stable up to hω = {} a kick",
             self.claim, self.largest, self.at_least_stable
         )
     }
 
     pub(crate) fn manifold(&self) -> Result<Manifold, CertifyError> {
         let (class, order) = self.compared_in();
-        let model = Model::new(self.structure, self.kicks);
+        let model = Model::new(self.structure, self.kicks, self.gradient);
         let conditions = Conditions::new(&self.claim, self.structure.is_symmetric())?;
         let mut equations = vec![(Polynomials::new(&conditions), model.steps.clone())];
         if let Some(processor) = &model.processor {
@@ -206,6 +219,7 @@ impl Problem {
     ///     claim: Claim::Separable(2),
     ///     structure: Structure::Aba,
     ///     kicks: 2,
+    ///     gradient: 0,
     ///     norm: Norm::Error,
     ///     largest: 1.0,
     ///     dispersion: false,
@@ -263,7 +277,11 @@ impl Problem {
 
     fn solution(&self, manifold: &Manifold, point: Point) -> Solution {
         let letters = &manifold.model.letters;
-        let stable = stable_per_kick(&letters.exponents, &letters.at(&point.unknowns), self.kicks);
+        let stable = stable_per_kick(
+            &letters.exponents,
+            &letters.at(&point.unknowns),
+            self.forces(),
+        );
         Solution {
             error: manifold
                 .figure

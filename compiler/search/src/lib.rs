@@ -19,6 +19,7 @@
 //!     claim: Claim::Nystrom(4),
 //!     structure: Structure::Bab,
 //!     kicks: 6,
+//!     gradient: 0,
 //!     norm: Norm::Error,
 //!     largest: 1.0,
 //!     dispersion: false,

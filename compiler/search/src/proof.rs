@@ -6,7 +6,7 @@
 use nalgebra::DVector;
 use symplectic_compiler::arithmetic::rounding::{Decimal, exact};
 use symplectic_compiler::certify::{
-    Certificate, CertifyError, Claim, Coefficient, KICK, Printed, Processor, Splitting, certify,
+    Certificate, CertifyError, Claim, KICK, Printed, Processor, Splitting, certify,
     certify_composition, certify_processed,
 };
 use symplectic_compiler::order::HamiltonianClass;
@@ -103,11 +103,15 @@ impl Problem {
             }
             return certify_composition(&weights, order);
         }
-        let (mut kick, mut drift): (Vec<Printed>, Vec<Printed>) = (Vec::new(), Vec::new());
+        let (mut kick, mut drift, mut gradient) = (Vec::new(), Vec::new(), Vec::new());
         for (exponent, &unknown) in model.steps.exponents.iter().zip(&model.sequence) {
             let value = printed[unknown].clone();
             match exponent {
                 Exponent::Letter(KICK) => kick.push(value),
+                Exponent::Gradient => {
+                    gradient.resize_with(kick.len().saturating_sub(1), Printed::zero);
+                    gradient.push(value);
+                }
                 _ => {
                     if kick.len() == drift.len() {
                         kick.push(Printed::zero());
@@ -117,7 +121,17 @@ impl Problem {
             }
         }
         drift.resize_with(kick.len(), Printed::zero);
-        certify(&Splitting { kick, drift, gradient: Vec::new() }, &self.claim)
+        if !gradient.is_empty() {
+            gradient.resize_with(kick.len(), Printed::zero);
+        }
+        certify(
+            &Splitting {
+                kick,
+                drift,
+                gradient,
+            },
+            &self.claim,
+        )
     }
 
     /// The digits of the unknowns of the exact method.
@@ -128,24 +142,10 @@ impl Problem {
         texts: &[String],
         free: &[(usize, usize)],
     ) -> Result<Vec<String>, CertifyError> {
-        let name = |index: usize| match self.structure {
-            Structure::Composition => Coefficient::Weight(index),
-            Structure::Processed { processor } if index >= model.unknowns() - processor => {
-                Coefficient::Processor(index + processor - model.unknowns())
-            }
-            Structure::Processed { .. } => Coefficient::Weight(index),
-            // With a drift first, the first kick of the list is zero.
-            Structure::Aba if index.is_multiple_of(2) => Coefficient::Drift(index / 2),
-            Structure::Aba => Coefficient::Kick(index / 2 + 1),
-            Structure::Bab | Structure::Plain if index.is_multiple_of(2) => {
-                Coefficient::Kick(index / 2)
-            }
-            Structure::Bab | Structure::Plain => Coefficient::Drift(index / 2),
-        };
         (0..model.unknowns())
             .map(|index| {
                 let is_free = free.iter().any(|(number, _)| *number == index);
-                let decimal = certificate.decimal(name(index), DIGITS)?;
+                let decimal = certificate.decimal(model.names[index], DIGITS)?;
                 Ok(match decimal {
                     Some(decimal) if !is_free => decimal.to_string(),
                     _ => texts[index].clone(),
@@ -156,11 +156,14 @@ impl Problem {
 
     fn definition(&self, model: &Model, digits: &[String]) -> Definition {
         let (lists, others) = model.lists();
-        let list = |numbers: Vec<usize>| {
-            let values: Vec<&str> = numbers.iter().map(|index| &*digits[*index]).collect();
+        let list = |numbers: Vec<Option<usize>>| {
+            let values: Vec<&str> = numbers
+                .iter()
+                .map(|index| index.map_or("0", |index| &*digits[index]))
+                .collect();
             values.join(", ")
         };
-        let list = |key: Key, numbers: Vec<usize>| match key {
+        let list = |key: Key, numbers: Vec<Option<usize>>| match key {
             Key::Processor => format!("back_and_forth({})", list(numbers)),
             _ => format!("[{}]", list(numbers)),
         };

@@ -1,5 +1,6 @@
 //! Systems on which methods are compared, each with a run of many periods.
 //!
+//! Systems with quadratic kinetic energy also have the derivative of the force along a vector, for gradient kicks.
 //! Drifts and kicks are exact flows of both parts. Sums are compensated, so that rounding errors stay far below the errors of methods.
 
 /// A number as a sum of two doubles: increments are added without loss.
@@ -67,6 +68,8 @@ pub(crate) enum Kind {
 enum Part {
     /// The derivatives by which the other half changes: velocities of momenta, or forces of positions.
     Derivative(fn(&[f64], &mut [f64])),
+    /// Forces, and their derivatives along a vector.
+    Force(fn(&[f64], &mut [f64]), fn(&[f64], &[f64], &mut [f64])),
     /// The exact flow, which changes both halves.
     Flow(fn(f64, &mut [f64], &mut [f64])),
 }
@@ -90,6 +93,8 @@ pub(crate) struct Scene {
 pub(crate) enum Half {
     Drift,
     Kick,
+    /// What a gradient kick adds to a kick, `f′f` for masses 1.
+    Gradient,
 }
 
 impl Scene {
@@ -105,7 +110,7 @@ impl Scene {
         let values = |sums: &[Sum]| -> Vec<f64> { sums.iter().map(|sum| sum.value).collect() };
         let part = match half {
             Half::Drift => &self.drift,
-            Half::Kick => &self.kick,
+            Half::Kick | Half::Gradient => &self.kick,
         };
         match part {
             Part::Flow(flow) => {
@@ -113,13 +118,18 @@ impl Scene {
                 flow(time, &mut q, &mut p);
                 (state.q, state.p) = (State::of(&q), State::of(&p));
             }
-            Part::Derivative(derivative) => {
+            Part::Derivative(derivative) | Part::Force(derivative, _) => {
                 let (from, to) = match half {
                     Half::Drift => (&state.p, &mut state.q),
-                    Half::Kick => (&state.q, &mut state.p),
+                    Half::Kick | Half::Gradient => (&state.q, &mut state.p),
                 };
+                let from = values(from);
                 let mut increments = vec![0.0; from.len()];
-                derivative(&values(from), &mut increments);
+                derivative(&from, &mut increments);
+                if let (Half::Gradient, Part::Force(_, along)) = (half, part) {
+                    let force = increments.clone();
+                    along(&from, &force, &mut increments);
+                }
                 for (sum, increment) in to.iter_mut().zip(increments) {
                     sum.add(time * increment);
                 }
@@ -178,15 +188,30 @@ fn kepler(time: f64, q: &mut [f64], p: &mut [f64]) {
 /// Hénon–Heiles: `U = (x² + y²)/2 + x²y − y³/3`.
 fn henon_heiles(q: &[f64], f: &mut [f64]) {
     let (x, y) = (q[0], q[1]);
-    f[0] = -x - 2.0 * x * y;
+    f[0] = -x - x * y * 2.0;
     f[1] = -y - x * x + y * y;
+}
+
+fn henon_heiles_along(q: &[f64], w: &[f64], d: &mut [f64]) {
+    let (x, y) = (q[0], q[1]);
+    d[0] = -(1.0 + 2.0 * y) * w[0] - 2.0 * x * w[1];
+    d[1] = -2.0 * x * w[0] + (2.0 * y - 1.0) * w[1];
 }
 
 /// `U = −1/|q|`
 fn attraction(q: &[f64], f: &mut [f64]) {
-    let r = q[0].hypot(q[1]);
-    f[0] = -q[0] / (r * r * r);
-    f[1] = -q[1] / (r * r * r);
+    let square = q[0] * q[0] + q[1] * q[1];
+    let cube = square * square.sqrt();
+    f[0] = -q[0] / cube;
+    f[1] = -q[1] / cube;
+}
+
+fn attraction_along(q: &[f64], w: &[f64], d: &mut [f64]) {
+    let square = q[0] * q[0] + q[1] * q[1];
+    let cube = square * square.sqrt();
+    let radial = 3.0 * (q[0] * w[0] + q[1] * w[1]) / square;
+    d[0] = (radial * q[0] - w[0]) / cube;
+    d[1] = (radial * q[1] - w[1]) / cube;
 }
 
 /// `U = −cos q`
@@ -194,20 +219,48 @@ fn pendulum(q: &[f64], f: &mut [f64]) {
     f[0] = -q[0].sin();
 }
 
+fn pendulum_along(q: &[f64], w: &[f64], d: &mut [f64]) {
+    d[0] = -q[0].cos() * w[0];
+}
+
 /// A chain between walls with cubic springs: `U = Σ d²/2 + d³/4 + d⁴/4`, `d` the extensions.
 fn chain(q: &[f64], f: &mut [f64]) {
-    let tension = |d: f64| d + 0.75 * d * d + d * d * d;
-    let at = |k: usize| if k == 0 || k > q.len() { 0.0 } else { q[k - 1] };
+    let tension = |d: f64| d + d * d * 0.75 + d * d * d;
+    let at = |k: usize| {
+        if k == 0 || k > q.len() { 0.0 } else { q[k - 1] }
+    };
     for k in 1..=q.len() {
         f[k - 1] = tension(at(k + 1) - at(k)) - tension(at(k) - at(k - 1));
+    }
+}
+
+fn chain_along(q: &[f64], w: &[f64], d: &mut [f64]) {
+    let at = |list: &[f64], k: usize| {
+        if k == 0 || k > list.len() {
+            0.0
+        } else {
+            list[k - 1]
+        }
+    };
+    let extended = |list: &[f64], k: usize| at(list, k + 1) - at(list, k);
+    let stiff = |d: f64| 1.0 + 1.5 * d + 3.0 * d * d;
+    let tension = |k: usize| stiff(extended(q, k)) * extended(w, k);
+    for k in 1..=q.len() {
+        d[k - 1] = tension(k) - tension(k - 1);
     }
 }
 
 /// Two wells: `U = (x² − 1)²/4 + y²/2 + xy²/5`.
 fn wells(q: &[f64], f: &mut [f64]) {
     let (x, y) = (q[0], q[1]);
-    f[0] = x - x * x * x - 0.2 * y * y;
-    f[1] = -y - 0.4 * x * y;
+    f[0] = x - x * x * x - y * y * 0.2;
+    f[1] = -y - x * y * 0.4;
+}
+
+fn wells_along(q: &[f64], w: &[f64], d: &mut [f64]) {
+    let (x, y) = (q[0], q[1]);
+    d[0] = (1.0 - 3.0 * x * x) * w[0] - 0.4 * y * w[1];
+    d[1] = -0.4 * y * w[0] - (1.0 + 0.4 * x) * w[1];
 }
 
 /// `T = √(1 + |p|²)`
@@ -291,7 +344,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[0.3, 0.2],
         p: &[0.2, -0.1],
         drift: Part::Derivative(free),
-        kick: Part::Derivative(henon_heiles),
+        kick: Part::Force(henon_heiles, henon_heiles_along),
     },
     Scene {
         name: "Kepler, e = 0.3",
@@ -301,7 +354,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[0.7, 0.0],
         p: &[0.0, 1.362_770_287_738_494_6],
         drift: Part::Derivative(free),
-        kick: Part::Derivative(attraction),
+        kick: Part::Force(attraction, attraction_along),
     },
     Scene {
         name: "pendulum",
@@ -311,7 +364,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[1.5],
         p: &[0.5],
         drift: Part::Derivative(free),
-        kick: Part::Derivative(pendulum),
+        kick: Part::Force(pendulum, pendulum_along),
     },
     Scene {
         name: "chain of 5",
@@ -321,7 +374,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[0.1, 0.3, 0.2, -0.1, 0.05],
         p: &[0.0, 0.1, -0.2, 0.0, 0.1],
         drift: Part::Derivative(free),
-        kick: Part::Derivative(chain),
+        kick: Part::Force(chain, chain_along),
     },
     Scene {
         name: "two wells",
@@ -331,7 +384,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[1.3, 0.4],
         p: &[0.1, 0.3],
         drift: Part::Derivative(free),
-        kick: Part::Derivative(wells),
+        kick: Part::Force(wells, wells_along),
     },
     Scene {
         name: "relativistic bowl",
@@ -351,7 +404,7 @@ pub(crate) const SCENES: &[Scene] = &[
         q: &[1.2],
         p: &[0.6],
         drift: Part::Derivative(lattice),
-        kick: Part::Derivative(pendulum),
+        kick: Part::Force(pendulum, pendulum_along),
     },
     Scene {
         name: "quartic in p",
@@ -414,3 +467,65 @@ pub(crate) const SCENES: &[Scene] = &[
         kick: Part::Derivative(tide),
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_along_a_vector_are_differences_of_forces() {
+        for scene in SCENES {
+            let Part::Force(force, along) = &scene.kick else {
+                continue;
+            };
+            let vector: Vec<f64> = (0..scene.q.len()).map(|k| 0.3 + 0.2 * k as f64).collect();
+            let at = |step: f64| {
+                let moved: Vec<f64> = scene
+                    .q
+                    .iter()
+                    .zip(&vector)
+                    .map(|(q, w)| q + step * w)
+                    .collect();
+                let mut found = vec![0.0; moved.len()];
+                force(&moved, &mut found);
+                found
+            };
+            let mut derivative = vec![0.0; vector.len()];
+            along(scene.q, &vector, &mut derivative);
+            for (k, (high, low)) in at(1e-5).into_iter().zip(at(-1e-5)).enumerate() {
+                assert!(
+                    (derivative[k] - (high - low) / 2e-5).abs() < 1e-8,
+                    "{}",
+                    scene.name
+                );
+            }
+        }
+    }
+
+    /// A flow there and back is the identity, and flows of two halves are that of the whole.
+    #[test]
+    fn exact_flows_are_flows() {
+        for scene in SCENES
+            .iter()
+            .filter(|scene| matches!(scene.drift, Part::Flow(_)))
+        {
+            let moved = |times: &[f64]| {
+                let mut state = scene.start();
+                for time in times {
+                    scene.apply(Half::Drift, *time, &mut state);
+                }
+                state
+            };
+            assert!(
+                moved(&[1.3, -1.3]).distance(&scene.start()) < 1e-13,
+                "{}",
+                scene.name
+            );
+            assert!(
+                moved(&[0.4, 2.6]).distance(&moved(&[3.0])) < 1e-13,
+                "{}",
+                scene.name
+            );
+        }
+    }
+}

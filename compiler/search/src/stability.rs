@@ -17,6 +17,10 @@ pub(crate) fn stable_per_kick(exponents: &[Exponent], arguments: &[f64], kicks: 
             match exponent {
                 // q += x h p
                 Exponent::Letter(DRIFT) => (a, b) = (a + x * h * c, b + x * h * d),
+                // p += 2 x h³ q, for the force −q and its derivative −1
+                Exponent::Gradient => {
+                    (c, d) = (c + 2.0 * x * h.powi(3) * a, d + 2.0 * x * h.powi(3) * b)
+                }
                 // p −= x h q
                 _ => (c, d) = (c - x * h * a, d - x * h * b),
             }
@@ -51,7 +55,7 @@ mod tests {
 
     #[test]
     fn verlet_is_stable_up_to_two() {
-        let model = Model::new(Structure::Aba, 1);
+        let model = Model::new(Structure::Aba, 1, 0);
         let arguments = model
             .letters
             .at(&nalgebra::DVector::from_vec(vec![0.5, 1.0]));

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use symplectic_compiler::Key;
-use symplectic_compiler::certify::{DRIFT, KICK};
+use symplectic_compiler::certify::{Coefficient, DRIFT, KICK};
 
 use crate::words::Exponent;
 
@@ -67,6 +67,8 @@ pub(crate) struct Model {
     pub(crate) steps: Product,
     /// The unknown that is the argument of each step, in a processed method of each step of the kernel.
     pub(crate) sequence: Vec<usize>,
+    /// The coefficient that each unknown is.
+    pub(crate) names: Vec<Coefficient>,
     /// The fractions of a processor as steps of the basic method.
     pub(crate) processor: Option<Product>,
     /// A typical size of each unknown.
@@ -74,7 +76,8 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    pub(crate) fn new(structure: Structure, kicks: usize) -> Self {
+    /// The model of a structure; the `gradient` innermost kicks are gradient kicks.
+    pub(crate) fn new(structure: Structure, kicks: usize, gradient: usize) -> Self {
         let (first, count) = match structure {
             Structure::Aba => (DRIFT, 2 * kicks + 1),
             Structure::Bab => (KICK, 2 * kicks + 1),
@@ -84,26 +87,65 @@ impl Model {
                 return Model::composition(structure, kicks, processor);
             }
         };
-        // The number of the unknown of each factor.
-        let unknown = |index: usize| match structure.is_symmetric() {
+        let is_symmetric = structure.is_symmetric();
+        let unknown = |index: usize| match is_symmetric {
             true => index.min(count - 1 - index),
             false => index,
         };
-        let sequence: Vec<usize> = (0..count).map(unknown).collect();
+        let exponents = alternating(first, count);
+        let kick_of = |index: usize| (index - usize::from(first == DRIFT)) / 2;
+        // With a drift first, the first kick of the lists is zero.
+        let name = |index: usize| match exponents[index] {
+            Exponent::Letter(KICK) => {
+                Coefficient::Kick(kick_of(index) + usize::from(first == DRIFT))
+            }
+            _ => Coefficient::Drift(index / 2),
+        };
+        let mut names: Vec<Coefficient> = (0..count)
+            .filter(|index| unknown(*index) == *index)
+            .map(name)
+            .collect();
         // Kicks and drifts sum to 1; the ends of a palindrome are halves of steps.
-        let share = |index: usize| match structure.is_symmetric() && index == 0 {
+        let share = |index: usize| match is_symmetric && index == 0 {
             true => 0.5 / kicks as f64,
             false => 1.0 / kicks as f64,
         };
+        let mut typical: Vec<f64> = (0..names.len()).map(share).collect();
+        let all: Vec<usize> = (0..count)
+            .filter(|index| exponents[*index] == Exponent::Letter(KICK))
+            .collect();
+        let outside = all.len().saturating_sub(gradient) / 2;
+        let mut steps: Vec<(Exponent, usize)> = Vec::new();
+        for (index, exponent) in exponents.iter().enumerate() {
+            steps.push((*exponent, unknown(index)));
+            let has_gradient = all
+                .iter()
+                .skip(outside)
+                .take(gradient)
+                .any(|kick| *kick == index);
+            if has_gradient {
+                let name =
+                    Coefficient::Gradient(kick_of(unknown(index)) + usize::from(first == DRIFT));
+                let known = names.iter().position(|other| *other == name);
+                let number = known.unwrap_or_else(|| {
+                    names.push(name);
+                    typical.push(0.0);
+                    names.len() - 1
+                });
+                steps.push((Exponent::Gradient, number));
+            }
+        }
+        let (exponents, sequence): (Vec<Exponent>, Vec<usize>) = steps.into_iter().unzip();
         let product = Product {
-            exponents: alternating(first, count),
+            exponents,
             arguments: selection(&sequence),
         };
         Model {
             structure,
             sequence,
+            names,
             processor: None,
-            typical: DVector::from_fn(product.arguments.ncols(), |index, _| share(index)),
+            typical: DVector::from_vec(typical),
             steps: product.clone(),
             letters: product,
         }
@@ -120,6 +162,7 @@ impl Model {
             structure: Structure::Plain,
             typical: DVector::zeros(sequence.len()),
             sequence,
+            names: Vec::new(),
             processor: None,
             steps: product.clone(),
             letters: product,
@@ -162,6 +205,10 @@ impl Model {
         Model {
             structure,
             sequence,
+            names: (0..weights)
+                .map(Coefficient::Weight)
+                .chain((0..processor).map(Coefficient::Processor))
+                .collect(),
             processor: (processor > 0).then(|| of_base(&after[processor..])),
             typical: DVector::from_fn(
                 unknowns,
@@ -180,35 +227,61 @@ impl Model {
         self.typical.len()
     }
 
-    /// The parts of the definition that list the unknowns, each with the numbers of its unknowns, and the parts that go with them.
-    pub(crate) fn lists(&self) -> (Vec<(Key, Vec<usize>)>, Vec<(Key, &'static str)>) {
-        let weights = self.sequence.iter().max().map_or(0, |last| last + 1);
-        let every_second = |start: usize| (start..self.unknowns()).step_by(2).collect();
-        match self.structure {
-            Structure::Aba => (
-                vec![(Key::Kick, every_second(1)), (Key::Drift, every_second(0))],
-                vec![(Key::First, "drift"), (Key::Symmetric, "true")],
-            ),
-            Structure::Bab => (
-                vec![(Key::Kick, every_second(0)), (Key::Drift, every_second(1))],
-                vec![(Key::Symmetric, "true")],
-            ),
-            Structure::Plain => (
-                vec![(Key::Kick, every_second(0)), (Key::Drift, every_second(1))],
-                vec![],
-            ),
-            Structure::Composition => (
-                vec![(Key::Weights, (0..weights).collect())],
-                vec![(Key::Base, "velocity-verlet"), (Key::Symmetric, "true")],
-            ),
-            Structure::Processed { .. } => (
+    /// The lists of a definition with the numbers of their unknowns, and the parts that go with them. Kicks without a gradient have none in the
+    /// list of gradients.
+    pub(crate) fn lists(&self) -> (Vec<(Key, Vec<Option<usize>>)>, Vec<(Key, &'static str)>) {
+        let of = |is: fn(&Coefficient) -> bool| -> Vec<Option<usize>> {
+            (0..self.unknowns())
+                .filter(|index| is(&self.names[*index]))
+                .map(Some)
+                .collect()
+        };
+        let lists = match self.structure {
+            Structure::Composition | Structure::Processed { .. } => vec![
+                (
+                    Key::Weights,
+                    of(|name| matches!(name, Coefficient::Weight(_))),
+                ),
+                (
+                    Key::Processor,
+                    of(|name| matches!(name, Coefficient::Processor(_))),
+                ),
+            ],
+            _ => {
+                let kicks = of(|name| matches!(name, Coefficient::Kick(_)));
+                let gradient = |kick: &Option<usize>| match kick.map(|kick| self.names[kick]) {
+                    Some(Coefficient::Kick(index)) => self
+                        .names
+                        .iter()
+                        .position(|name| *name == Coefficient::Gradient(index)),
+                    _ => None,
+                };
+                let mut gradients: Vec<Option<usize>> = kicks.iter().map(gradient).collect();
+                if gradients.iter().all(Option::is_none) {
+                    gradients.clear();
+                }
                 vec![
-                    (Key::Weights, (0..weights).collect()),
-                    (Key::Processor, (weights..self.unknowns()).collect()),
-                ],
-                vec![(Key::Base, "velocity-verlet"), (Key::Symmetric, "true")],
-            ),
-        }
+                    (Key::Kick, kicks),
+                    (Key::Drift, of(|name| matches!(name, Coefficient::Drift(_)))),
+                    (Key::Gradient, gradients),
+                ]
+            }
+        };
+        let others = match self.structure {
+            Structure::Aba => vec![(Key::First, "drift"), (Key::Symmetric, "true")],
+            Structure::Bab => vec![(Key::Symmetric, "true")],
+            Structure::Plain => vec![],
+            Structure::Composition | Structure::Processed { .. } => {
+                vec![(Key::Base, "velocity-verlet"), (Key::Symmetric, "true")]
+            }
+        };
+        (
+            lists
+                .into_iter()
+                .filter(|(_, list)| !list.is_empty())
+                .collect(),
+            others,
+        )
     }
 }
 

@@ -27,7 +27,7 @@ impl Splitting {
     /// The drifts and kicks of a tableau; `None` if it is not a splitting.
     #[must_use]
     pub fn of(tableau: &Tableau) -> Option<Self> {
-        let forces = tableau.evaluations()?.forces;
+        let forces = tableau.evaluations()?.cost();
         Some(match tableau.processed() {
             None => Splitting {
                 flows: flows(tableau)?,
@@ -42,7 +42,7 @@ impl Splitting {
         })
     }
 
-    /// Force evaluations a step.
+    /// Force evaluations a step; a gradient kick counts as two.
     #[must_use]
     pub fn forces(&self) -> usize {
         self.forces
@@ -50,9 +50,10 @@ impl Splitting {
 
     /// The model whose unknowns are the fractions of the step, and these fractions.
     fn model(&self) -> (Model, DVector<f64>) {
-        let letter = |half: &Half| match half {
-            Half::Drift => DRIFT,
-            Half::Kick => KICK,
+        let exponent = |half: &Half| match half {
+            Half::Drift => Exponent::Letter(DRIFT),
+            Half::Kick => Exponent::Letter(KICK),
+            Half::Gradient => Exponent::Gradient,
         };
         let whole: Vec<&(Half, f64)> = match &self.processor {
             None => self.flows.iter().collect(),
@@ -60,7 +61,7 @@ impl Splitting {
                 inverse.iter().chain(&self.flows).chain(processor).collect()
             }
         };
-        let exponents = whole.iter().map(|(half, _)| Exponent::Letter(letter(half)));
+        let exponents = whole.iter().map(|(half, _)| exponent(half));
         let fractions = whole.iter().map(|(_, fraction)| *fraction);
         let fractions = DVector::from_iterator(whole.len(), fractions);
         (Model::of_all(exponents.collect()), fractions)
@@ -75,7 +76,12 @@ impl Splitting {
         let size = scene.time / (parts * steps);
         let apply = |flows: &Flows, state: &mut State| {
             for (half, fraction) in flows {
-                scene.apply(*half, fraction * size, state);
+                // p += h (b f + 2 g h² f′f)
+                let time = match half {
+                    Half::Gradient => 2.0 * fraction * size.powi(3),
+                    Half::Drift | Half::Kick => fraction * size,
+                };
+                scene.apply(*half, time, state);
             }
         };
         let mut state = scene.start();
@@ -118,11 +124,16 @@ fn flows(tableau: &Tableau) -> Option<Flows> {
         _ => return None,
     };
     let mut flows = Vec::new();
-    for (drift, kick) in numbers.b.into_iter().zip(numbers.b_tilde) {
-        let pair = [(Half::Kick, kick), (Half::Drift, drift)];
+    for (stage, (drift, kick)) in numbers.b.into_iter().zip(numbers.b_tilde).enumerate() {
+        let gradient = numbers.gradient.get(stage).copied().unwrap_or(0.0);
+        let stage = [
+            (Half::Kick, kick),
+            (Half::Gradient, gradient),
+            (Half::Drift, drift),
+        ];
         match drift_first {
-            true => flows.extend(pair.into_iter().rev()),
-            false => flows.extend(pair),
+            true => flows.extend(stage.into_iter().rev()),
+            false => flows.extend(stage),
         }
     }
     flows.retain(|(_, fraction)| *fraction != 0.0);

@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use nalgebra::DMatrix;
-use symplectic_compiler::certify::{Alphabet, Word};
+use symplectic_compiler::certify::{Alphabet, DRIFT, KICK, Word};
 
 /// The exponent of a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,6 +17,17 @@ pub(crate) enum Exponent {
     Letter(u8),
     /// All letters: a basic method.
     Base,
+    /// `[B, [A, B]] = 2BAB − ABB − BBA`, of a gradient kick.
+    Gradient,
+}
+
+/// The factor of three letters in the exponent of a gradient kick.
+fn of_gradient(three: &[u8]) -> f64 {
+    match *three {
+        [KICK, DRIFT, KICK] => 2.0,
+        [DRIFT, KICK, KICK] | [KICK, KICK, DRIFT] => -1.0,
+        _ => 0.0,
+    }
 }
 
 /// A set of words, closed under taking away the last letter, or the first one.
@@ -37,6 +48,8 @@ struct Block {
     letter: Option<u8>,
     length: usize,
     degree: usize,
+    /// The factor of its threes of letters in a power of the exponent of a gradient kick.
+    gradient: f64,
 }
 
 impl Closed {
@@ -67,6 +80,7 @@ impl Closed {
                 letter: block.iter().all(|l| *l == block[0]).then_some(block[0]),
                 length,
                 degree: alphabet.degree(block),
+                gradient: block.chunks(3).map(of_gradient).product(),
             }
         };
         let blocks = all
@@ -92,8 +106,13 @@ impl Closed {
                         sum += values[block.rest] * powers.value(block.length, block.length)
                     }
                     Exponent::Base => {
-                        sum += values[block.rest] * powers.value(block.degree, block.length)
+                        sum += values[block.rest] * powers.value(block.degree, block.length);
                     }
+                    Exponent::Gradient if block.gradient != 0.0 => {
+                        let power = block.length / 3;
+                        sum += values[block.rest] * block.gradient * powers.value(power, power);
+                    }
+                    Exponent::Gradient => {}
                 }
             }
             values[word] = sum;
@@ -233,6 +252,20 @@ impl Words {
                         derivatives[(row, column)] = sum;
                     }
                 }
+                // The same with three letters.
+                Exponent::Gradient => {
+                    self.ends.multiply(&mut after, Exponent::Gradient, powers);
+                    for (row, cuts) in self.cuts.iter().enumerate() {
+                        let threes = cuts.word.windows(3).enumerate();
+                        derivatives[(row, column)] = threes
+                            .map(|(k, three)| {
+                                before[cuts.beginnings[k]]
+                                    * of_gradient(three)
+                                    * after[cuts.ends[k + 3]]
+                            })
+                            .sum();
+                    }
+                }
                 Exponent::Base => {
                     for (row, cuts) in self.cuts.iter().enumerate() {
                         let mut sum = 0.0;
@@ -276,6 +309,33 @@ mod tests {
         for (row, expected) in expected.iter().enumerate() {
             for (column, expected) in expected.iter().enumerate() {
                 assert!((slopes[(row, column)] - expected).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_for_gradient_kicks_are_differences_of_values() {
+        let alphabet = Alphabet::splitting();
+        let words: Vec<Word> = (1..=6).flat_map(|degree| alphabet.words(degree)).collect();
+        let words = Words::new(&words, &alphabet);
+        let exponents = [
+            Exponent::Letter(1),
+            Exponent::Gradient,
+            Exponent::Letter(0),
+            Exponent::Gradient,
+        ];
+        let at = [0.4, -0.3, 0.5, 0.2];
+        let (_, slopes) = words.derivatives(&exponents, &at);
+        for column in 0..4 {
+            let moved = |by: f64| {
+                let mut moved = at;
+                moved[column] += by;
+                words.values(&exponents, &moved)
+            };
+            let (high, low) = (moved(1e-5), moved(-1e-5));
+            for row in 0..slopes.nrows() {
+                let difference = (high[row] - low[row]) / 2e-5;
+                assert!((difference - slopes[(row, column)]).abs() < 1e-8);
             }
         }
     }

@@ -11,6 +11,7 @@ fn problem(claim: Claim, structure: Structure, kicks: usize) -> Problem {
         claim,
         structure,
         kicks,
+        gradient: 0,
         norm: Norm::Error,
         largest: 1.0,
         dispersion: false,

@@ -121,6 +121,7 @@ impl FittedCoefficients {
             a_tilde: matrix(&a_tilde),
             b: doubles(&b),
             b_tilde: doubles(&b),
+            gradient: Vec::new(),
         })
     }
 
