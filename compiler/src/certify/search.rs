@@ -231,7 +231,7 @@ fn solved(reading: &Reading, claim: &Claim) -> Claim {
 }
 
 /// The conditions that are solved for a reading.
-fn system(reading: &Reading, solved: &Claim) -> Result<System, CertifyError> {
+pub(super) fn system_of(reading: &Reading, solved: &Claim) -> Result<System, CertifyError> {
     let steps = reading.steps.clone();
     Ok(match &reading.processing {
         Some(processing) => processing.system(steps, solved),
@@ -285,7 +285,7 @@ fn as_printed(reading: &Reading, claim: &Claim, digit_bits: u32) -> Option<Certi
     }
     let first = Conditions::of_degrees(&solved, 1..=FIRST.min(claim.order()));
     holds(System::new(reading.steps.clone(), first))?;
-    let count = holds(system(reading, &solved).ok()?)?;
+    let count = holds(system_of(reading, &solved).ok()?)?;
     let found = (Vec::new(), None, solution);
     let digits = (Digits::All, Vec::new());
     Some(certificate(
@@ -300,7 +300,7 @@ fn certified(
     digit_bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let structure = reading.structure;
-    let system = system(reading, &solved(reading, claim))?;
+    let system = system_of(reading, &solved(reading, claim))?;
     let counts = (system.all().count(), reading.unknowns.len());
     let with = |found, digits, suspects| {
         let digits = (digits, suspects);
