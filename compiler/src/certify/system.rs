@@ -488,6 +488,23 @@ mod tests {
         );
     }
 
+    /// `exp(kB) exp(yC) exp(dA)` with `C = 2BAB − ABB − BBA`, by hand: a gradient kick, then a drift.
+    #[test]
+    fn coefficients_of_gradient_kicks_are_those_found_by_hand() {
+        let kinds = [Kind::Letter(KICK), Kind::Gradient, Kind::Letter(DRIFT)];
+        let system = system(Claim::Nystrom(4), &kinds);
+        let (k, y, d) = (ratio(1, 3), ratio(-2, 7), ratio(5, 11));
+        let arguments = [k.clone(), y.clone(), d.clone()];
+        let value = |word: &[u8]| system.exact(word, &arguments);
+        assert_eq!(value(&[1, 0, 1]), &y * ratio(2, 1));
+        assert_eq!(value(&[0, 1, 1]), -&y);
+        assert_eq!(value(&[1, 1, 0]), -&y + &k * &k * &d * ratio(1, 2));
+        assert_eq!(value(&[1, 0, 1, 0]), &y * &d * ratio(2, 1));
+        assert_eq!(value(&[1, 1, 0, 1]), &k * &y * ratio(2, 1));
+        assert_eq!(value(&[1, 0, 1, 0, 1, 1]), -(&y * &y));
+        assert_eq!(value(&[1, 0, 0]), &k * &d * &d * ratio(1, 2));
+    }
+
     /// `exp(xE₁ + x³E₃) exp(yE₁ + y³E₃)`, by hand.
     #[test]
     fn coefficients_of_compositions_are_those_found_by_hand() {
@@ -505,7 +522,12 @@ mod tests {
     fn enclosures_agree_with_exact_arithmetic() {
         let exact = [ratio(1, 3), ratio(5, 7), ratio(2, 11)];
         let kinds = [Kind::Base; 3];
-        for system in [splitting(), system(Claim::SymmetricBase(5), &kinds)] {
+        let gradient = [Kind::Gradient, Kind::Letter(DRIFT), Kind::Letter(KICK)];
+        for system in [
+            splitting(),
+            system(Claim::SymmetricBase(5), &kinds),
+            system(Claim::Nystrom(6), &gradient),
+        ] {
             let boxed = |values: &[BigRational]| -> Vec<Interval> {
                 values.iter().map(|x| Interval::enclosing(x, 200)).collect()
             };

@@ -363,7 +363,7 @@ impl<'a> Source<'a> {
         let (Some(prefix), None) = (prefixes.next().map(str::to_owned), prefixes.next()) else {
             return;
         };
-        for name in ["a", "b", "c", "a_tilde", "b_tilde", "c_tilde"] {
+        for name in ["a", "b", "c", "a_tilde", "b_tilde", "c_tilde", "gradient"] {
             if let Some(assigned) = self.names.remove(&format!("{prefix}_{name}")) {
                 self.names.entry(name.to_owned()).or_insert(assigned);
             }

@@ -26,6 +26,14 @@ fn an_explicit_method_is_straight_line_code() {
     expect_file!["emitted/stoermer_verlet.rs"].assert_eq(&code);
 }
 
+/// The force of the end is carried to the next step. The gradient kick is twice the weight, exactly.
+#[test]
+fn gradient_kicks_are_straight_line_code() {
+    let chin = catalogue::find("chin-1997-c").expect("known").derive();
+    let code = emitted(&chin.expect("derived"), "Chin");
+    expect_file!["emitted/chin.rs"].assert_eq(&code);
+}
+
 #[test]
 fn lobatto_3_is_emitted_with_explicit_end_stages() {
     let code = emitted(&derived("polynomial(3)", "lobatto(3)"), "Lobatto3");

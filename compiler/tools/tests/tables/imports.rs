@@ -4,7 +4,7 @@ use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{
     Coefficients, Definition, Error, Library, Limits, Property, Tableau, catalogue,
 };
-use symplectic_tools::{Language, import};
+use symplectic_tools::{Language, Stepper, import};
 
 fn read(library: Library, text: &str) -> Result<Tableau, Error> {
     import(library, "table", text, &Limits { stages: 64 })
@@ -42,6 +42,47 @@ fn doubles(tableau: &Tableau) -> Vec<f64> {
         ..
     } = tableau.to_f64();
     [b, b_tilde, a.concat(), a_tilde.concat()].concat()
+}
+
+/// A table with gradient kicks is not read as one without them.
+#[test]
+fn tables_with_gradient_kicks_are_refused() {
+    let tableau = catalogue::find("chin-1997-c").expect("known").derive();
+    let tableau = tableau.expect("derived").named("chin");
+    for (language, library) in [
+        (Language::C, Library::Sundials),
+        (Language::Fortran, Library::Sundials),
+        (Language::Julia, Library::RungeKuttaJl),
+        (Language::Python, Library::Nodepy),
+    ] {
+        let text = language.write(&tableau, 20).expect("written");
+        assert!(text.contains("gradient"), "{text}");
+        let error = read(library, &text)
+            .expect_err("gradient kicks")
+            .to_string();
+        assert!(
+            error.contains("gradient kicks, which are not imported"),
+            "{error}"
+        );
+    }
+    for language in [
+        Language::Sundials,
+        Language::Petsc,
+        Language::Nodepy,
+        Language::Tsv,
+        Language::Coq,
+    ] {
+        let error = language
+            .write(&tableau, 20)
+            .expect_err("gradient kicks")
+            .to_string();
+        assert!(error.ends_with("it has gradient kicks"), "{error}");
+    }
+    let error = Stepper::C
+        .write(&tableau, None)
+        .expect_err("gradient kicks")
+        .to_string();
+    assert!(error.contains("it has gradient kicks"), "{error}");
 }
 
 /// What is exported to a library and read from there is the same method, for the catalogue: the same orders, symmetry and evidence, and the same

@@ -56,9 +56,9 @@ pub trait ProvedFor<C> {}
 )]
 pub trait Splits: Method {}
 
-/// A plan that has steps: any but that of a splitting with more than 36 stages for general Hamiltonians.
+/// A plan that has steps: any but that of a splitting with gradient kicks or more than 36 stages for general Hamiltonians.
 #[diagnostic::on_unimplemented(
-    message = "a splitting of more than 36 stages has no steps for systems of class `General`",
+    message = "a splitting of more than 36 stages, or with gradient kicks, has no steps for systems of class `General`",
     label = "steps separable Hamiltonians only",
     note = "implement the system as a separable one, or take a method for general Hamiltonians"
 )]
