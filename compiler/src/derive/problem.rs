@@ -324,6 +324,18 @@ impl Problem {
         }
     }
 
+    /// The functions for which the construction is exact, if they are not polynomials: rows and weights of the square construction
+    /// integrate them exactly. Also whether these are the rows of the momenta.
+    pub fn exact_on(&self) -> Option<(&Basis, bool)> {
+        match self.construction() {
+            Construction::Collocation { basis, .. } => {
+                let fitted = basis.polynomials().is_none() && !self.adjoint;
+                fitted.then_some((basis, self.exchange))
+            }
+            _ => None,
+        }
+    }
+
     /// The number of functions of the basis, if the quadrature formula has more nodes.
     pub fn functions(&self) -> Option<usize> {
         match self.construction() {
