@@ -48,7 +48,7 @@ fn units(definition: &str, functions: &FittedCoefficients, nu: f64) -> Result<f6
     Ok(pairs.iter().map(difference).fold(0.0, f64::max))
 }
 
-/// On both sides of the angle up to which series are used, and of that where weights get negative.
+/// On both sides of the angle up to which series are used, and up to the largest angle.
 #[test]
 fn coefficients_are_correct_to_two_units() -> Result<(), Failure> {
     for (definition, functions) in &ALL {
@@ -59,6 +59,8 @@ fn coefficients_are_correct_to_two_units() -> Result<(), Failure> {
             1.0 + 1.0 / 1024.0,
             1.75,
             3.5,
+            20.5,
+            63.25,
             -0.375,
         ] {
             let found = units(definition, functions, nu)?;

@@ -156,7 +156,7 @@ impl Problem {
         let kind = Kind::of(definition);
         if let Some(name) = definition.get(Key::Parameters) {
             errors.push(misfit_at(definition, Key::Parameters, format!(
-                "with `parameters` the coefficients are functions of `{name}`, and this needs numbers: give the parameter a number, as by `--at {name}=3`"
+                "with `parameters` the coefficients are functions of `{name}`, and this needs numbers: give the parameter a number, on the command line by `--at {name}=3`"
             )));
             return Err(errors.0);
         }
