@@ -32,7 +32,7 @@ const SERIES: usize = 3;
 ///
 /// let definition = Definition::parse("parameters: w, basis: cos(w*t), nodes: 1/2")?;
 /// let text = export::fitted::text(&Fitted::derive(&definition, &Limits::default())?)?;
-/// assert!(text.contains("b_1   = sin(w)/(w*cos(w/2))"), "{text}");
+/// assert!(text.contains("D    = w*cos(w/2)\nb_1  = sin(w)/D  → 1\n"), "{text}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn text(fitted: &Fitted) -> Result<String, ErrorKind> {
@@ -61,7 +61,7 @@ pub fn text(fitted: &Fitted) -> Result<String, ErrorKind> {
     let row = |name: String, x: &Quotient, limit: &Vec<FieldElement>| {
         let function = if x.denominator == denominator {
             let numerator = ring.display(&x.numerator, w);
-            format!("({numerator})/D")
+            format!("{}/D", bracketed(numerator))
         } else {
             ring.display_quotient(x, w)
         };
