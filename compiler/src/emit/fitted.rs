@@ -99,7 +99,7 @@ pub fn fitted_method(fitted: &Fitted, header: &Header) -> Result<TokenStream, Er
                 }
             };
 
-            /// The method for steps of this size.
+            /// The method for steps of this size. Steps of another size, such as those to a time that is not a multiple of it, are not fitted.
             ///
             /// # Errors
             /// If the method has no coefficients there.
