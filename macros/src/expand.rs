@@ -6,7 +6,9 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use symplectic_compiler::emit::{Header, fitted_method, method};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::{Fitted, Key, Limits, Requirement, Tableau, check, did_you_mean};
+use symplectic_compiler::{
+    ErrorKind, Fitted, Key, Limits, Requirement, Tableau, check, did_you_mean,
+};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
@@ -81,21 +83,11 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
 
     let accepted = field("accept").map_or(Ok(None), |field| accepted(field).map(Some));
     let accepted = errors.note(accepted).flatten();
-
-    if complete && form == Form::Tableau && field(Key::Parameters.name()).is_some() {
-        if let Some(other) = ["file", "require", "accept"]
-            .iter()
-            .find_map(|name| field(name))
-        {
-            let message = format!(
-                "`{}` does not go with `parameters`: what is proved about such a method is in its documentation and in `symplectic derive`",
-                other.key
-            );
-            errors.note::<()>(Err(syn::Error::new(other.key.span(), message)));
-        }
-        let code = errors.note(fitted(definition, form, &limits));
+    if form == Form::Tableau && field(Key::Parameters.name()).is_some() && field("file").is_none() {
+        let code = errors.note(fitted(definition, form, &limits, &requirements));
         return errors.0.map_or_else(|| Ok(code.unwrap_or_default()), Err);
     }
+
     let mut rebuild = TokenStream::new();
     let is_part = |field: &&Field| Key::find(&field.key.to_string()).is_some();
     let parts: Vec<String> = definition
@@ -122,7 +114,10 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
     // A missing key is already reported.
     let tableau = if complete { errors.note(tableau) } else { None };
     if let Some(tableau) = tableau {
-        errors.note(prove(&tableau, &requirements, accepted));
+        let proved = prove(&requirements, |requirement| {
+            tableau.require(requirement, accepted)
+        });
+        errors.note(proved);
         if errors.0.is_none() {
             let attributes = &definition.attributes;
             let header = Header {
@@ -219,10 +214,16 @@ fn wrong_digits(tableau: &Tableau, definition: &Definition) -> TokenStream {
 }
 
 /// The code of a method whose coefficients are functions of its parameter.
-fn fitted(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<TokenStream> {
+fn fitted(
+    definition: &Definition,
+    form: Form,
+    limits: &Limits,
+    requirements: &[Required],
+) -> syn::Result<TokenStream> {
     let fitted = from_parts(definition, form, |defined| {
         Fitted::derive(defined, limits).map_err(|error| vec![error])
     })?;
+    prove(requirements, |requirement| fitted.require(requirement))?;
     let attributes = &definition.attributes;
     let header = Header {
         attributes: quote!(#(#attributes)*),
@@ -376,12 +377,14 @@ fn accepted(field: &Field) -> syn::Result<u32> {
     })
 }
 
-/// Every requirement must be proved, or verified to the accepted number of binary places.
-fn prove(tableau: &Tableau, requirements: &[Required], accepted: Option<u32>) -> syn::Result<()> {
+/// Every requirement must be decided in favour of the method.
+fn prove(
+    requirements: &[Required],
+    decide: impl Fn(&Requirement) -> Result<(), ErrorKind>,
+) -> syn::Result<()> {
     let mut errors = Errors(None);
     for (requirement, source) in requirements {
-        let decided = tableau.require(requirement, accepted);
-        errors.note(decided.map_err(|kind| source.locate(&kind.into())));
+        errors.note(decide(requirement).map_err(|kind| source.locate(&kind.into())));
     }
     errors.0.map_or(Ok(()), Err)
 }

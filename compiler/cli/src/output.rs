@@ -93,7 +93,7 @@ impl OutputOptions {
         let w = fitted.parameter();
         let refused = |what: &str| -> Error {
             let message = format!(
-                "{what} needs numbers, and with `parameters` the coefficients are functions of `{w}`: give it a number, as by \
+                "{what} needs numbers, and with `parameters` the coefficients are functions of `{w}`: give it a number by \
                  `--at {w}=3`, or take `--format text` or `json`"
             );
             ErrorKind::Definition { message }.into()

@@ -170,7 +170,7 @@ impl Problem {
         let kind = Kind::of(definition);
         if let Some(name) = definition.get(Key::Parameters) {
             errors.push(misfit_at(definition, Key::Parameters, format!(
-                "with `parameters` the coefficients are functions of `{name}`, and this needs numbers: give the parameter a number, as by `--at {name}=3`"
+                "with `parameters` the coefficients are functions of `{name}`, and this needs numbers: give the parameter a number, on the command line by `--at {name}=3`"
             )));
             return Err(errors.0);
         }
@@ -357,6 +357,18 @@ impl Problem {
                     None => steps.iter().map(|step| step.method.stages()).sum(),
                 }
             }
+        }
+    }
+
+    /// The functions for which the construction is exact, if they are not polynomials: rows and weights of the square construction
+    /// integrate them exactly. Also whether these are the rows of the momenta.
+    pub fn exact_on(&self) -> Option<(&Basis, bool)> {
+        match self.construction() {
+            Construction::Collocation { basis, .. } => {
+                let fitted = basis.polynomials().is_none() && !self.adjoint;
+                fitted.then_some((basis, self.exchange))
+            }
+            _ => None,
         }
     }
 

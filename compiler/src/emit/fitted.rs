@@ -69,7 +69,7 @@ pub fn fitted_method(fitted: &Fitted, header: &Header) -> Result<TokenStream, Er
     let exchanged = fitted.is_exchanged();
     let text = name.to_string();
     let definition = fitted.definition().to_string();
-    let documentation = documentation(fitted);
+    let documentation = documentation(fitted, orders.general.order);
     let of_frequency = format!(" The frequency `{}`.", fitted.parameter());
     Ok(quote! {
         #attributes
@@ -99,7 +99,7 @@ pub fn fitted_method(fitted: &Fitted, header: &Header) -> Result<TokenStream, Er
                 }
             };
 
-            /// The method for steps of this size.
+            /// The method for steps of this size. Steps of another size, such as those to a time that is not a multiple of it, are not fitted.
             ///
             /// # Errors
             /// If the method has no coefficients there.
@@ -127,10 +127,15 @@ fn is_short(fitted: &Fitted, series: &[FieldElement], near: f64) -> bool {
     last <= NEGLIGIBLE * largest
 }
 
-fn documentation(fitted: &Fitted) -> String {
+fn documentation(fitted: &Fitted, order: usize) -> String {
     let list: Vec<&str> = fitted.basis().collect();
+    let stages = match fitted.is_exchanged() {
+        false => "positions for velocities",
+        true => "momenta for forces",
+    };
     format!(
-        " Symplectic method of {} stages, fitted to the frequency `{}`: positions are exact for velocities in the span of {}.",
+        " Symplectic method of {} stages, fitted to the frequency `{}`, of order {order} for small steps. At the stages and at the end of a step \
+         {stages} in the span of {} are exact.",
         fitted.stages(),
         fitted.parameter(),
         list.join(", ")

@@ -303,6 +303,7 @@ pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
         lines.extend(kernel_lines(tableau, &processed.kernel));
     }
     lines.push(String::new());
+    lines.extend(exact_on(tableau));
     lines.push("stability on the oscillator, ν = hω".to_owned());
     match tableau.stable_steps() {
         StableSteps::All(found) => {
@@ -345,6 +346,24 @@ fn kernel_lines(tableau: &Tableau, kernel: &Tableau) -> Vec<String> {
         }
     }
     lines
+}
+
+/// For which functions a step is exact by construction, if the basis is not polynomial; followed by an empty line.
+fn exact_on(tableau: &Tableau) -> Vec<String> {
+    let problem = tableau.known_problem();
+    let Some((basis, of_momenta)) = problem.and_then(|problem| problem.exact_on()) else {
+        return Vec::new();
+    };
+    let [stages, other] = match of_momenta {
+        false => ["positions, for velocities", "momenta, for forces"],
+        true => ["momenta, for forces", "positions, for velocities"],
+    };
+    vec![
+        format!("exact on the span of {}, proved", basis.name()),
+        format!("  at the stages and at the end of a step: {stages} in the span"),
+        format!("  at the end of a step: {other} in the span"),
+        String::new(),
+    ]
 }
 
 /// The first digits of a decimal.

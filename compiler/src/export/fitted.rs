@@ -32,7 +32,7 @@ const SERIES: usize = 3;
 ///
 /// let definition = Definition::parse("parameters: w, basis: cos(w*t), nodes: 1/2")?;
 /// let text = export::fitted::text(&Fitted::derive(&definition, &Limits::default())?)?;
-/// assert!(text.contains("b_1   = sin(w)/(w*cos(w/2))"), "{text}");
+/// assert!(text.contains("D    = w*cos(w/2)\nb_1  = sin(w)/D  → 1\n"), "{text}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn text(fitted: &Fitted) -> Result<String, ErrorKind> {
@@ -61,7 +61,7 @@ pub fn text(fitted: &Fitted) -> Result<String, ErrorKind> {
     let row = |name: String, x: &Quotient, limit: &Vec<FieldElement>| {
         let function = if x.denominator == denominator {
             let numerator = ring.display(&x.numerator, w);
-            format!("({numerator})/D")
+            format!("{}/D", bracketed(numerator))
         } else {
             ring.display_quotient(x, w)
         };
@@ -132,25 +132,26 @@ fn statements(fitted: &Fitted) -> Result<Vec<String>, ErrorKind> {
             .collect();
         match names.as_slice() {
             [] => "no function of the basis".to_owned(),
-            names => format!("all of the span of {}", names.join(", ")),
+            names => format!("velocities in the span of {}", names.join(", ")),
         }
     };
+    let forces = |places: &[usize]| span(places).replace("velocities", "forces");
     lines.push(String::new());
-    lines.push(
-        "exact on the span of the basis, with w the frequency and t the time in the step"
-            .replace("w the", &format!("{w} the")),
-    );
     lines.push(format!(
-        "  the step: {} as velocity or force; proved",
-        span(&exact.step)
+        "exact on the span of the basis, with {w} the frequency and t the time in the step; proved"
+    ));
+    lines.push(format!("  positions at the end:    {}", span(&exact.step)));
+    lines.push(format!(
+        "  momenta at the end:      {}",
+        forces(&exact.step)
     ));
     lines.push(format!(
-        "  positions of the stages: {} as velocity; proved",
+        "  positions at the stages: {}",
         span(&exact.velocities)
     ));
     lines.push(format!(
-        "  momenta of the stages: {} as force; proved",
-        span(&exact.forces)
+        "  momenta at the stages:   {}",
+        forces(&exact.forces)
     ));
     lines.push(String::new());
     lines.push(format!("oscillator of the frequency {w}"));
@@ -158,13 +159,25 @@ fn statements(fitted: &Fitted) -> Result<Vec<String>, ErrorKind> {
         PhaseError::Exact => "  the step is exact, proved".to_owned(),
         PhaseError::Leading { power, coefficient } => {
             let coefficient = fitted.ring().field.exact(&coefficient).unwrap_or_default();
-            format!("  the step is not exact: trace/2 − cos({w}) = ({coefficient}) {w}^{power} + …, proved")
+            format!(
+                "  phase: order {}, error {} {w}^{power}, proved",
+                power.saturating_sub(1),
+                bracketed(coefficient)
+            )
         }
         PhaseError::AtLeast { power } => {
-            format!("  trace/2 is cos({w}) up to {w}^{power} at least")
+            format!("  phase: no error up to {w}^{power}, proved")
         }
     });
     Ok(lines)
+}
+
+/// A number, with brackets around a sum.
+fn bracketed(number: String) -> String {
+    match number.contains(' ') {
+        true => format!("({number})"),
+        false => number,
+    }
 }
 
 fn order(found: FittedOrder, w: &str) -> String {

@@ -86,7 +86,7 @@ impl Fitted {
         if let Some((key, _)) = definition.parts().find(|(key, _)| !TAKES.contains(key)) {
             return Err(refused(format!(
                 "a method with `parameters` is defined by a `basis` at `nodes`, perhaps with `exchange`: leave out `{}`, or give \
-                 the parameter a number, as by `--at w=3`",
+                 the parameter a number, on the command line by `--at w=3`",
                 key.name()
             )));
         }
@@ -131,7 +131,7 @@ impl Fitted {
         if basis.len() > MAX_STAGES {
             return Err(at_nodes(ErrorKind::Definition {
                 message: format!(
-                    "a method with `parameters` has at most {MAX_STAGES} stages; with a number for `{parameter}`, as by `--at {parameter}=3`, any number"
+                    "a method with `parameters` has at most {MAX_STAGES} stages; with a number for `{parameter}`, on the command line by `--at {parameter}=3`, any number"
                 ),
             }));
         }

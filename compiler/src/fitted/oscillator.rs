@@ -8,19 +8,19 @@ use crate::algebra::{Field, FieldElement};
 use crate::arithmetic::rational::ratio;
 use crate::error::ErrorKind;
 
-/// Half the trace of a step of `q' = w p`, `p' = −w q`, compared with `cos ν`.
+/// By how much a step of the oscillator `q' = w p`, `p' = −w q` turns too far: the angle of the step minus `ν`, for small `ν`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PhaseError {
     /// The stages and the step are exact: proved.
     Exact,
-    /// `trace/2 − cos ν = coefficient·ν^power + …`: refuted.
+    /// `coefficient·ν^power + …`: the step is not exact.
     Leading {
         /// The power of `ν`.
         power: usize,
         /// The coefficient.
         coefficient: FieldElement,
     },
-    /// The series agree up to this power of `ν`.
+    /// The angle is exact up to this power of `ν` at least.
     AtLeast {
         /// The power.
         power: usize,
@@ -31,7 +31,8 @@ pub enum PhaseError {
 const LENGTH: usize = 24;
 
 impl Fitted {
-    /// How a step of the oscillator `q' = w p`, `p' = −w q` differs from the exact rotation by `ν`.
+    /// The phase error on the oscillator of the frequency `w`. The angle θ of a step has `cos θ = trace/2`, so that
+    /// `trace/2 − cos ν = −(θ − ν) ν + …`.
     ///
     /// # Errors
     /// [`ErrorKind::Definition`] if a coefficient has no limit at `ν = 0`.
@@ -106,8 +107,11 @@ impl Fitted {
             .map(|(power, (x, y))| (power, field.subtract(&field.multiply(&half, x), y)));
         let leading = differences.find(|(_, x)| !x.is_zero());
         Ok(match leading {
-            Some((power, coefficient)) => PhaseError::Leading { power, coefficient },
-            None => PhaseError::AtLeast { power: LENGTH },
+            Some((power, x)) => PhaseError::Leading {
+                power: power - 1,
+                coefficient: field.multiply(&minus, &x),
+            },
+            None => PhaseError::AtLeast { power: LENGTH - 2 },
         })
     }
 

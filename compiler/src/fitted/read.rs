@@ -200,7 +200,7 @@ impl Reader<'_> {
         let message = format!(
             "`{}` is not supported in a basis with `parameters`: its functions are sums of rational multiples of t^k, \
              t^k*cos(q*{w}*t) and t^k*sin(q*{w}*t), with q rational and k up to {LARGEST_POWER}; with a number for {w}, \
-             as by `--at {w}=3`, all functions are",
+             on the command line by `--at {w}=3`, all functions are",
             shown(text.unwrap_or_default())
         );
         self.input

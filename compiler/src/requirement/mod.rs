@@ -1,5 +1,6 @@
 //! What a user can require of a method: `symplectic`, `order(separable) == 6`, `stable_to(2)`.
 
+mod fitted;
 mod perturbed;
 
 use std::fmt;

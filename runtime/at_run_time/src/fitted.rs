@@ -12,7 +12,7 @@ use crate::wide::Wide;
 /// Larger angles `|wh|` are refused: a step would be longer than ten periods.
 const LARGEST: f64 = 64.0;
 
-/// A sum is used as a divisor if it is at least this part of the sum of its absolute terms. The rest of its 104 bits is then enough for
+/// A sum is used as a divisor if it is at least this part of the bound on its terms. The rest of its 104 bits is then enough for
 /// a double.
 const SMALLEST_PART: f64 = 1.0 / (1_u64 << 40) as f64;
 
@@ -71,7 +71,7 @@ impl FittedCoefficients {
     /// * [`TableauError::Angle`] if `ν` is not a number or its absolute value is above 64;
     /// * [`TableauError::NoMethod`] if `ν` is a zero of a weight or of the denominator, to twelve digits.
     pub fn at(&self, nu: f64) -> Result<RunTimeCoefficients, TableauError> {
-        if !(nu.abs() <= LARGEST) {
+        if nu.is_nan() || nu.abs() > LARGEST {
             return Err(TableauError::Angle { nu });
         }
         let angle = Wide::of(nu);
@@ -135,13 +135,13 @@ impl FittedCoefficients {
     }
 }
 
-/// A sum of terms, and the sum of their absolute values.
+/// A sum of terms, and a bound on the sum of their absolute values.
 fn total(terms: &[FittedTerm], nu: Wide) -> (Wide, f64) {
     terms.iter().fold((Wide::ZERO, 0.0), |(sum, size), term| {
         let (sine, cosine) = (Wide::pair(term.frequency) * nu).sine_cosine();
         let wave = if term.sine { sine } else { cosine };
-        let value = Wide::pair(term.coefficient) * nu.power(term.power) * wave;
-        (sum + value, size + value.absolute().high)
+        let factor = Wide::pair(term.coefficient) * nu.power(term.power);
+        (sum + factor * wave, size + factor.absolute().high)
     })
 }
 

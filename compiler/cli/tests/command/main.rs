@@ -12,6 +12,7 @@ mod emit;
 mod emit_systems;
 mod encodings;
 mod equations;
+mod fitted;
 mod import;
 mod languages;
 mod list;

@@ -21,6 +21,7 @@
 /// | key | value |
 /// |---|---|
 /// | `basis` | `polynomial(s)`, `legendre(s)`, or a list of `s` linearly independent functions of `t`: `[1, t, exp(-t/2)]`, `[1, cos(pi*t), sin(pi*t)]` |
+/// | `parameters` | with `basis` and `nodes`: the name of a frequency in the basis, see [below](#fitted-to-a-frequency) |
 /// | `nodes` | `gauss(s)`, `lobatto(s)`, `radau-left(s)`, `radau-right(s)`, `chebyshev(s)`, `clenshaw-curtis(s)`, `fejer(s)`, `newton-cotes(s)`, or a list of distinct numbers in `[0, 1]`: `[0, 1/3, 1]`, `[1/2 - sqrt(2)/4, 1/2 + sqrt(2)/4]`, with as many nodes as functions |
 /// | `quadrature` | instead of `nodes`: the same with at least as many nodes as functions (rectangular Galerkin construction) |
 /// | `weights` | of the quadrature, if not the interpolatory ones: `[1/6, 2/3, 1/6]` |
@@ -57,6 +58,25 @@
 /// ```
 ///
 /// The rectangular construction is that of Tang, *Two types of variational integrators*, §2.2.
+///
+/// # Fitted to a frequency
+///
+/// With `parameters: w` the functions of the basis may contain the frequency `w`, as in `[1, cos(w*t), sin(w*t)]`. The coefficients are then
+/// functions of `ν = wh`. The macro emits a type with the field `w`. Its method `at(h)` returns the
+/// [method](../at_run_time/struct.RunTimeTableau.html) for the step size `h`; this needs the feature `at-run-time`. `require` accepts
+/// `symplectic`, `symmetric`, `consistent` and orders for `h → 0`, each for every frequency.
+///
+/// ```
+/// symplectic::tableau! {
+///     Fitted { parameters: w, basis: [cos(w*t), sin(w*t)], nodes: gauss(2), require: [symmetric, order == 4] }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::at_run_time::TableauError> {
+/// let method = Fitted { w: 3.0 }.at(0.1)?;
+/// assert_eq!(method.stages(), 2);
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 ///
