@@ -42,6 +42,7 @@ fn units(definition: &str, functions: &FittedCoefficients, nu: f64) -> Result<f6
         b_tilde: found.b_tilde,
         a: found.a,
         a_tilde: found.a_tilde,
+        gradient: found.gradient,
     };
     let difference = |(x, y): &(f64, f64)| (x - y).abs() / (y.next_up() - y).abs().max(1e-30);
     let pairs = found.zip(exact);

@@ -2,6 +2,7 @@
 
 mod compositions;
 mod decimals;
+mod found;
 mod perturbed;
 mod processed;
 mod splittings;
@@ -246,6 +247,7 @@ pub fn entries() -> impl Iterator<Item = Entry> {
         compositions::ROWS,
         perturbed::ROWS,
         processed::ROWS,
+        found::ROWS,
     ]
     .into_iter()
     .flatten()

@@ -31,7 +31,7 @@ impl Fitted {
             _ => None,
         };
         match requirement {
-            Requirement::Property(name) | Requirement::SeparableProperty(name) => {
+            Requirement::Property(name) | Requirement::ClassProperty { name, .. } => {
                 match property(name) {
                     Some((true, _)) => return Ok(()),
                     Some((false, witness)) => {
