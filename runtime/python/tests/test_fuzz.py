@@ -25,7 +25,7 @@ FORMULAS = [
     "q: [x], v: [vx]; L = vx^2/2 - cos(x)",
 ]
 METHODS = ["gauss-2", "gauss-4", "stormer-verlet", "blanes-moan-2002-s10", "lobatto-3", "lobatto-2", "symplectic-euler", "radau-2", "nothing", "", "a = 1", {"basis": "polynomial(2)", "nodes": "gauss(2)"}, 3]
-KEYS = ["basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "kick", "drift", "first", "claim", "base", "compose", "symmetric", "exchange", "adjoint", "wrong"]
+KEYS = ["parameters", "basis", "nodes", "quadrature", "weights", "a", "b", "a_tilde", "b_tilde", "kick", "drift", "gradient", "processor", "first", "claim", "base", "compose", "symmetric", "exchange", "adjoint", "wrong"]
 VALUES = ["polynomial(2)", "gauss(2)", "lobatto(3)", "polynomial(0)", "polynomial(99999)", "1, t", "0, 1", "1/2, 1/2", "triple_jump(4)", "separable(4)", "gauss-2", "velocity-verlet", "[", "1/0", "sqrt(-1)", "root(t^2 - 2, 1)"]
 
 
