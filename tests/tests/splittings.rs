@@ -126,6 +126,9 @@ counted! {
     Ostmeyer2022Order4 { ostmeyer-2022-order-4 } "ostmeyer-2022-order-4" 5 5 [1, 0];
     BlanesCasasEscorihuela2022A19 { blanes-casas-escorihuela-2022-a19 } "blanes-casas-escorihuela-2022-a19" 19 19 [0, 1];
     Morales2025Y8m10b { morales-2025-y8m10b } "morales-2025-y8m10b" 21 21 [1, 0];
+    Symplectic2026S7 { symplectic-2026-s7 } "symplectic-2026-s7" 7 7 [1, 0];
+    Symplectic2026Srkn14 { symplectic-2026-srkn14 } "symplectic-2026-srkn14" 14 14 [1, 0];
+    Symplectic2026S19odr8 { symplectic-2026-s19odr8 } "symplectic-2026-s19odr8" 19 19 [1, 0];
     Morales2022Y10m16 { morales-2022-y10m16 } "morales-2022-y10m16" 33 33 [1, 0];
     Saba5 { saba-5 } "saba-5" 5 5 [0, 1];
     Saba6 { saba-6 } "saba-6" 6 6 [0, 1];
