@@ -35,4 +35,18 @@ pub(super) const ROWS: &[Row] = &[
         stages: &[20],
         source: "symplectic search --order 8 --kicks 19 --structure composition --minimise long-runs --starts 36032",
     },
+    Row {
+        name: "symplectic-2026-p17odr8",
+        title: "17 steps of Störmer–Verlet, processed: order 8, least error in long runs",
+        definition: "base: velocity-verlet, weights: [0.18943536333340006232991027211118853, \
+                     0.54013150574624611274878408139201345, -0.3582, 0.15285328181988271444065409853216805, \
+                     -0.39317016027759632107087403465217862, 0.1711, 0.29324003500146213447323352111182688, 0.1960, \
+                     -0.58278005124678940584341587699003659], symmetric: true, \
+                     processor: back_and_forth(-0.58366027669917091124504866244019737, \
+                     -0.079560065535596905663259663826701946, 0.0488, 0.028721412883281787177807103166488653, 0.5772, -0.5157, \
+                     0.52419892935148602973050122310041066), claim: separable(8)",
+        stages: &[46],
+        source: "symplectic search --structure processed --order 8 --kicks 17 --processor 7 --minimise long-runs --starts 26432 \
+                 --keep 2, the second one",
+    },
 ];

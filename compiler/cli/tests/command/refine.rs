@@ -407,7 +407,7 @@ fn refine_refuses_malformed_files_at_the_place() {
     "#]]
     .assert_eq(&told("missing", "kick = [\"0.5\", \"0.5\"]\n", ""));
     expect![[r#"
-        error: not a file of printed coefficients: unknown field `kicks`, expected one of `kick`, `drift`, `weights`; did you mean `kick`?
+        error: not a file of printed coefficients: unknown field `kicks`, expected one of `kick`, `drift`, `gradient`, `weights`; did you mean `kick`?
          --> unknown.toml:6:1
           |
         6 | kicks = ["0.5", "0.5"]
