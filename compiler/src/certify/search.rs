@@ -506,9 +506,8 @@ pub(super) fn expanded(
         .collect();
     // In each stage the drift comes last.
     sorted.sort_by_key(|(index, kind, _)| (*index, *kind == Kind::Letter(DRIFT)));
-    let step = |(argument, (_, kind, _)): (usize, &(usize, Kind, Interval))| {
-        Step::new(*kind, argument)
-    };
+    let step =
+        |(argument, (_, kind, _)): (usize, &(usize, Kind, Interval))| Step::new(*kind, argument);
     let steps = sorted.iter().enumerate().map(step).collect();
     (
         steps,

@@ -340,7 +340,8 @@ impl System {
                     };
                     if !is_zero(&current[start]) {
                         let entry = block.of(&powers.entries);
-                        current[end] = step.add(&current[end], &current[start], &entry, block.power);
+                        current[end] =
+                            step.add(&current[end], &current[start], &entry, block.power);
                     }
                 }
             }
@@ -376,7 +377,8 @@ impl System {
                         derivative = step.add(&derivative, &suffixes[end], &entry, block.power);
                     }
                     let entry = block.of(&own.entries);
-                    suffixes[start] = step.add(&suffixes[start], &suffixes[end], &entry, block.power);
+                    suffixes[start] =
+                        step.add(&suffixes[start], &suffixes[end], &entry, block.power);
                 }
                 if let Some(column) = column {
                     let prefix = &prefixes[index][start];
