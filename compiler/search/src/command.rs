@@ -178,7 +178,7 @@ impl Arguments {
         {
             return Err(refused(format!(
                 "a palindrome of {kicks} kicks has {} gradient kicks in its middle: give `--gradient` such a number",
-                if kicks % 2 == 0 {
+                if kicks.is_multiple_of(2) {
                     "0, 2, 4, …"
                 } else {
                     "0, 1, 3, 5, …"

@@ -57,8 +57,8 @@ const LOGARITHMS: usize = 7;
 /// A figure as a function of the unknowns: the square of an error constant.
 #[derive(Debug, Clone)]
 pub(crate) enum Figure {
-    Norm(Form),
-    Cost(Cost),
+    Norm(Box<Form>),
+    Cost(Box<Cost>),
 }
 
 impl Figure {
@@ -71,14 +71,14 @@ impl Figure {
     ) -> Result<Self, CertifyError> {
         let near = Form::of_residuals(class, order, norm)?;
         Ok(match norm {
-            Norm::Cost { tolerance } => Figure::Cost(Cost {
+            Norm::Cost { tolerance } => Figure::Cost(Box::new(Cost {
                 near,
                 far: Form::of_logarithm(class, order + 1 + step)?,
                 tolerance,
                 order: order as f64,
                 step: step as f64,
-            }),
-            _ => Figure::Norm(near),
+            })),
+            _ => Figure::Norm(Box::new(near)),
         })
     }
 

@@ -257,7 +257,7 @@ impl Problem {
             let points: Vec<Option<Point>> = batch
                 .clone()
                 .into_par_iter()
-                .map(|index| manifold.from_start(seed, index, best))
+                .map(|index| manifold.minimum_from(seed, index, best))
                 .collect();
             progress.starts = batch.end;
             for point in points.into_iter().flatten() {
@@ -298,7 +298,7 @@ impl Problem {
 
 impl Manifold {
     /// The minimum that a random start leads to; `best` is the squared error of the best solution so far.
-    fn from_start(&self, seed: u32, index: u64, best: f64) -> Option<Point> {
+    fn minimum_from(&self, seed: u32, index: u64, best: f64) -> Option<Point> {
         let mut random =
             Pcg64::seed_from_u64(u64::from(seed) ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };

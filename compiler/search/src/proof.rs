@@ -204,11 +204,11 @@ fn double_text(value: f64) -> String {
     Decimal::round(&exact(value), DOUBLE).to_string()
 }
 
+/// The numbers of free unknowns with their decimals.
+type Decimals = Vec<(usize, usize)>;
+
 /// The solution with its free unknowns rounded to short decimals: the unknowns, and the numbers of the free ones with their decimals.
-fn shortened(
-    manifold: &Manifold,
-    solution: &Solution,
-) -> Option<(DVector<f64>, Vec<(usize, usize)>)> {
+fn shortened(manifold: &Manifold, solution: &Solution) -> Option<(DVector<f64>, Decimals)> {
     let start = DVector::from_vec(solution.unknowns.clone());
     let (_, slopes) = manifold.constraints(&start);
     let free = leading_rows(tangents(&slopes));

@@ -57,6 +57,9 @@ impl Product {
     }
 }
 
+/// A list of a definition with the numbers of its unknowns; `None` is zero.
+pub(crate) type List = (Key, Vec<Option<usize>>);
+
 /// The unknowns of a structure and the methods that they make.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
@@ -229,7 +232,7 @@ impl Model {
 
     /// The lists of a definition with the numbers of their unknowns, and the parts that go with them. Kicks without a gradient have none in the
     /// list of gradients.
-    pub(crate) fn lists(&self) -> (Vec<(Key, Vec<Option<usize>>)>, Vec<(Key, &'static str)>) {
+    pub(crate) fn lists(&self) -> (Vec<List>, Vec<(Key, &'static str)>) {
         let of = |is: fn(&Coefficient) -> bool| -> Vec<Option<usize>> {
             (0..self.unknowns())
                 .filter(|index| is(&self.names[*index]))
