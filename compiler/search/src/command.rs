@@ -230,7 +230,12 @@ fn run(options: &Options) -> Result<ExitCode, Error> {
     let stopped = Arc::new(AtomicBool::new(false));
     let flag = stopped.clone();
     // Without the handler Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(move || {
+        // The second time nothing is proved any more.
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
     let problem = options.0.problem()?;
     warn(&problem)?;
     let begin = Instant::now();

@@ -7,7 +7,7 @@ use super::reading::misfit_at;
 use crate::certify::{Certificate, CertifyError, Claim, Coefficient, Digits, Printed};
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};
-use crate::expression::{Input, parse_list, shown};
+use crate::expression::{Input, complex, is_complex, parse_list, shown};
 use crate::numerals::computed;
 
 /// Reads `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`.
@@ -54,6 +54,9 @@ pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
         let name = key.name();
         printed(Input { name, text }, range.clone()).map_err(|error| {
             let part = &text[range.clone()];
+            if is_complex(part.trim()) {
+                return Input { name, text }.error(&range, complex());
+            }
             let exact = parse_list(Input { name, text: part }).is_ok();
             let hint = match exact {
                 true => "; a `claim` is about printed digits: leave it out where numbers are exact",

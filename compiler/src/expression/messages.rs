@@ -12,13 +12,34 @@ impl Expression {
         name: &str,
         known: &str,
     ) -> Error {
-        let kind = ErrorKind::Unknown {
-            what,
-            name: shown(name),
-            known: known.to_owned(),
+        let kind = match IMAGINARY.contains(&name) {
+            true => complex(),
+            false => ErrorKind::Unknown {
+                what,
+                name: shown(name),
+                known: known.to_owned(),
+            },
         };
         input.error(&self.span, kind)
     }
+}
+
+/// What people call the square root of −1.
+const IMAGINARY: [&str; 4] = ["i", "I", "j", "im"];
+
+/// The error for a coefficient that is not real.
+pub(crate) fn complex() -> ErrorKind {
+    let message = "coefficients are real: methods with complex weights, also of positive real part, need complex states and are not supported";
+    ErrorKind::Definition {
+        message: message.to_owned(),
+    }
+}
+
+/// Whether a printed number has an imaginary part: it ends with a digit and the imaginary unit.
+pub(crate) fn is_complex(printed: &str) -> bool {
+    let unit = IMAGINARY.iter().find_map(|unit| printed.strip_suffix(unit));
+    let number = unit.map(|rest| rest.trim_end_matches(['*', ' ']));
+    number.is_some_and(|number| number.ends_with(|last: char| last.is_ascii_digit() || last == '.'))
 }
 
 #[cfg(test)]
@@ -38,6 +59,20 @@ mod tests {
         });
         all.map(|list| list.iter().map(ToString::to_string).collect())
             .map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn complex_coefficients_are_refused_with_the_reason() {
+        let refused = "coefficients are real: methods with complex weights";
+        for text in ["1/2 + i*sqrt(3)/6", "1/4 - I/4", "j"] {
+            assert!(evaluate(text).expect_err(text).contains(refused), "{text}");
+        }
+        for text in ["0.5-0.14i", "0.5 + 3*I", "1.j"] {
+            assert!(is_complex(text), "{text}");
+        }
+        for text in ["0.5", "pi", "1/2", "i"] {
+            assert!(!is_complex(text), "{text}");
+        }
     }
 
     #[test]

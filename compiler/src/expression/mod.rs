@@ -20,6 +20,7 @@ use num_rational::BigRational;
 
 pub use symplectic_exact::input::{Input, MAX_EXPONENT, shown, without_mark};
 
+pub(crate) use messages::{complex, is_complex};
 pub use parser::{Row, parse_list, parse_matrix};
 
 /// The longest text that is read.

@@ -1,7 +1,7 @@
 from _typeshed import Incomplete, SupportsGetItem, SupportsLenAndGetItem
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Formula", "Method", "Problem", "Tableau", "audit", "catalogue", "chaos", "command", "ensemble", "import_table", "integrate", "keys", "refine", "section", "transition"]
+__all__ = ["__version__", "Formula", "Method", "Problem", "Tableau", "audit", "catalogue", "chaos", "command", "ensemble", "import_table", "integrate", "keys", "refine", "search", "section", "transition"]
 
 __version__: Final[str]
 """
@@ -303,6 +303,11 @@ def keys() -> list[tuple[str, str | None, str]]:
 def refine(name: str, text: str, digits: SupportsIndex, json: bool, nearest: bool) -> str:
     """
     Proves that an exact method is near printed digits; the result is text or JSON.
+    """
+
+def search(options: SupportsGetItem[int, str]) -> tuple[int, int, int, int, int | None, list[tuple[Tableau, float, float, float, float, int]]]:
+    """
+    Searches with the options of the command line.
     """
 
 def section(problem: Problem, method: Method, setting: Incomplete, time: SupportsFloat | SupportsIndex, q: Incomplete, p: Incomplete, varied: Incomplete, end: SupportsFloat | SupportsIndex, events: SupportsGetItem[int, tuple[str, str, bool, SupportsIndex | None, SupportsGetItem[int, tuple[str, str]], SupportsIndex | None]], progress: Any | None) -> dict:

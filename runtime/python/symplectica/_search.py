@@ -159,7 +159,7 @@ def search(
     >>> found = sy.search(4, kicks=4, starts=64)
     >>> found[0].tableau.order("separable"), found[0].error_constant < 0.0077
     (4, True)
-    >>> run = sy.system("H = p^2/2 - cos(q)").integrate(0.1, 0, t=10, step=0.1, method=found[0].tableau)
+    >>> run = sy.system("q: [x], p: [y]; H = y^2/2 - cos(x)").integrate(0.1, 0, t=10, step=0.1, method=found[0].tableau)
     """
     orders = [order] if isinstance(order, int) else list(order)
     options = ["--order", ",".join(str(one) for one in orders), "--kicks", str(kicks), "--structure", structure]
@@ -186,5 +186,8 @@ def search(
     if dispersion:
         options.append("--dispersion")
     counts = _native.search(options)
-    methods = tuple(FoundMethod(Tableau(native), *rest) for native, *rest in counts[-1])
+    methods = tuple(
+        FoundMethod(Tableau(native), error_constant, efficiency, size, stable, found)
+        for native, error_constant, efficiency, size, stable, found in counts[-1]
+    )
     return Search(methods, *counts[:-1])

@@ -10,7 +10,7 @@ def test_a_search_finds_proved_methods_the_best_first():
     assert (found.conditions, found.unknowns, found.free, len(found)) == (4, 7, 3, 2)
     assert found[0].efficiency <= found[1].efficiency
     assert found[0].tableau.order("nystrom") == 4
-    assert found[0].tableau.properties.symplectic
+    assert found[0].tableau.properties["symplectic(separable)"]
     assert "claim" in dict(found[0].tableau.definition)
 
 
