@@ -198,7 +198,7 @@ impl Measured {
     }
 }
 
-/// The explicit methods, of which each is there under one name.
+/// The explicit methods of the catalogue, each under one name.
 fn methods() -> Result<Vec<Explicit>, Box<dyn Error>> {
     /// More forces in a step are worse than a method of the same order with fewer.
     const MOST: usize = 36;

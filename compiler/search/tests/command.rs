@@ -96,7 +96,7 @@ fn an_interrupted_search_goes_on_from_its_file() {
 }
 
 #[test]
-fn what_cannot_be_is_said_with_the_counts() {
+fn impossible_isolated_and_unstable_solutions_are_reported_with_their_counts() {
     let text = printed(&["--order", "6", "--kicks", "5", "--starts", "64"]);
     assert!(
         text.contains(

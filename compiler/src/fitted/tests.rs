@@ -107,7 +107,7 @@ fn the_phase_error_at_the_frequency_is_found() {
 }
 
 #[test]
-fn what_cannot_be_fitted_is_refused_with_the_reason() {
+fn definitions_that_cannot_be_fitted_are_refused_with_the_reason() {
     let cases = [
         (
             "parameters: w, basis: [1, exp(w*t)], nodes: [0, 1]",

@@ -226,7 +226,7 @@ fn compositions_and_adjoints_have_gradient_kicks_in_the_third_power() {
 }
 
 #[test]
-fn what_does_not_fit_gradient_kicks_is_refused() {
+fn definitions_that_do_not_fit_gradient_kicks_are_refused() {
     for (text, part) in [
         (
             "kick: [1/2, 1/2], drift: [1, 0], gradient: [1/24]",

@@ -208,7 +208,6 @@ fn a_step_is_that_written_by_hand() -> Result<(), Error> {
         p -= h / 6.0 * g * q.sin();
         assert!((found.q[0] - q).abs() < 1e-14 && (found.p[0] - p).abs() < 1e-13);
     }
-    // Two forces, of which one is carried, two velocities that are momenta, and a product.
     Ok(())
 }
 

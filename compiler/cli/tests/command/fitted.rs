@@ -70,7 +70,7 @@ fn derive_at_a_number_is_the_method_of_this_number() {
 }
 
 #[test]
-fn what_needs_numbers_refuses_a_parameter() {
+fn options_that_need_numbers_are_refused_with_a_parameter() {
     let refused = |more: &[&str]| failure(&[&GAUSS_2[..], more].concat());
     for (more, message) in [
         (&["--format", "toml"][..], "this format needs numbers"),
