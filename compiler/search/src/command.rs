@@ -433,13 +433,7 @@ fn conditions(problem: &Problem, claim: &Claim) -> Result<usize, CertifyError> {
 
 /// The claim of the next order, if there are as many unknowns as conditions for it.
 fn next_in_reach(problem: &Problem) -> Option<Claim> {
-    let step = problem.step();
-    let next = match problem.claim {
-        Claim::Separable(order) => Claim::Separable(order + step),
-        Claim::Nystrom(order) => Claim::Nystrom(order + step),
-        Claim::SymmetricBase(order) => Claim::SymmetricBase(order + step),
-        Claim::Perturbed(_) => return None,
-    };
+    let next = problem.claim.next(problem.step())?;
     conditions(problem, &next)
         .is_ok_and(|more| more <= problem.unknowns())
         .then_some(next)

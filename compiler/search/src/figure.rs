@@ -19,7 +19,7 @@
 //!
 //! $$ C^2 = \sum_\tau \Bigl(\frac{\varphi_\tau(Z)}{\sigma(\tau)}\Bigr)^2 = |L r|^2 $$
 
-use nalgebra::{DMatrix, DVector, Matrix2, RowDVector};
+use nalgebra::{DMatrix, DVector, Matrix2};
 use num_traits::ToPrimitive;
 use symplectic_compiler::certify::{CertifyError, Conditions, DRIFT, KICK};
 use symplectic_compiler::order::{BicolouredTree, Colour, HamiltonianClass, TreeRule, Trees};
@@ -238,11 +238,6 @@ fn error_form(
     epsilon: f64,
 ) -> DMatrix<f64> {
     let lie = basis(degree);
-    let columns: Vec<DVector<f64>> = lie
-        .iter()
-        .map(|element| residuals.coordinates(conditions, element))
-        .collect();
-    let elements = DMatrix::from_columns(&columns);
     let trees = Trees::up_to(TreeRule::Class(class), degree);
     let trees: Vec<BicolouredTree> = trees.of_order(degree).collect();
     let mut errors = DMatrix::zeros(trees.len(), lie.len());
@@ -257,9 +252,7 @@ fn error_form(
             errors[(row, column)] = small * pair(&words, element) / symmetry;
         }
     }
-    // The errors vanish where all coordinates do, so they are a function R of these: errors = R elements.
-    let inverse = pseudo_inverse(&elements * elements.transpose());
-    let of_residuals = errors * elements.transpose() * inverse;
+    let of_residuals = on_residuals(&errors, conditions, residuals, &lie);
     of_residuals.transpose() * of_residuals
 }
 
@@ -273,11 +266,6 @@ pub(crate) fn dispersion(
     let conditions = Conditions::of_degree(class, order + 1)?;
     let residuals = Polynomials::new(&conditions);
     let lie = basis(order + 1);
-    let columns: Vec<DVector<f64>> = lie
-        .iter()
-        .map(|element| residuals.coordinates(&conditions, element))
-        .collect();
-    let elements = DMatrix::from_columns(&columns);
     let letters = [
         Matrix2::new(0.0, 1.0, 0.0, 0.0),
         Matrix2::new(0.0, 0.0, -1.0, 0.0),
@@ -291,9 +279,25 @@ pub(crate) fn dispersion(
         });
         0.5 * (matrices.sum::<Matrix2<f64>>() * flow).trace()
     };
-    let turns = RowDVector::from_iterator(lie.len(), lie.iter().map(turn));
+    let turns = DMatrix::from_iterator(1, lie.len(), lie.iter().map(turn));
+    let of_residuals = on_residuals(&turns, &conditions, &residuals, &lie);
+    Ok(residuals.combined(&of_residuals))
+}
+
+/// Linear functions of Lie elements as functions of the residuals. They are given on a basis, one column an element, and vanish where all
+/// residuals do: `functions = R elements`.
+fn on_residuals(
+    functions: &DMatrix<f64>,
+    conditions: &Conditions,
+    residuals: &Polynomials,
+    lie: &[Combination],
+) -> DMatrix<f64> {
+    let columns = lie
+        .iter()
+        .map(|element| residuals.coordinates(conditions, element));
+    let elements = DMatrix::from_columns(&columns.collect::<Vec<_>>());
     let inverse = pseudo_inverse(&elements * elements.transpose());
-    Ok(residuals.combined(&(turns * elements.transpose() * inverse)))
+    functions * elements.transpose() * inverse
 }
 
 /// The words of the orders in which the vertices of a tree can be taken, children before parents.

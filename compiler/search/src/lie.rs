@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use symplectic_compiler::certify::{Alphabet, Word};
+use symplectic_compiler::certify::{Alphabet, Word, is_lyndon};
 
 /// A combination of words.
 pub(crate) type Combination = BTreeMap<Word, f64>;
@@ -31,7 +31,6 @@ fn bracket_of(word: &[u8]) -> Combination {
     if word.len() <= 1 {
         return Combination::from([(word.to_vec(), 1.0)]);
     }
-    let is_lyndon = |word: &[u8]| (1..word.len()).all(|start| word < &word[start..]);
     let cut = (1..word.len()).find(|&start| is_lyndon(&word[start..]));
     let (left, right) = word.split_at(cut.unwrap_or(1));
     bracket(&bracket_of(left), &bracket_of(right))

@@ -1,6 +1,6 @@
 //! Order conditions as polynomials in the unknowns, in doubles.
 
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector};
 use symplectic_compiler::arithmetic::rounding::to_f64;
 use symplectic_compiler::certify::{Conditions, Word};
 
@@ -74,13 +74,12 @@ impl Polynomials {
         }
     }
 
-    /// One combination of the conditions.
-    pub(crate) fn combined(&self, factors: &RowDVector<f64>) -> Self {
-        let one = |number: f64| DVector::from_element(1, number);
+    /// Combinations of the conditions, one a row.
+    pub(crate) fn combined(&self, factors: &DMatrix<f64>) -> Self {
         Polynomials {
             words: self.words.clone(),
-            forms: DMatrix::from_rows(&[factors * &self.forms]),
-            wanted: one((factors * &self.wanted)[0]),
+            forms: factors * &self.forms,
+            wanted: factors * &self.wanted,
         }
     }
 

@@ -172,21 +172,8 @@ impl Problem {
             .map(|(key, numbers)| (key, list(key, numbers)))
             .collect();
         parts.extend(others.into_iter().map(|(key, text)| (key, text.to_owned())));
-        parts.push((Key::Claim, self.claim_text()));
+        parts.push((Key::Claim, self.claim.notation()));
         Definition::new(parts)
-    }
-
-    /// The claim as a definition writes it.
-    #[must_use]
-    pub fn claim_text(&self) -> String {
-        match &self.claim {
-            Claim::Separable(order) | Claim::SymmetricBase(order) => format!("separable({order})"),
-            Claim::Nystrom(order) => format!("nystrom({order})"),
-            Claim::Perturbed(orders) => {
-                let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
-                format!("perturbed({})", orders.join(", "))
-            }
-        }
     }
 }
 

@@ -109,12 +109,24 @@ impl Claim {
     }
 
     /// The same claim with an order higher by `step`; `None` for perturbed systems, whose claims have several orders.
-    pub(super) fn next(&self, step: usize) -> Option<Claim> {
+    pub fn next(&self, step: usize) -> Option<Claim> {
         match self {
             Claim::Separable(order) => Some(Claim::Separable(order + step)),
             Claim::Nystrom(order) => Some(Claim::Nystrom(order + step)),
             Claim::SymmetricBase(order) => Some(Claim::SymmetricBase(order + step)),
             Claim::Perturbed(_) => None,
+        }
+    }
+
+    /// The claim as a definition writes it: `separable(6)`, `perturbed(8, 4)`.
+    pub fn notation(&self) -> String {
+        match self {
+            Claim::Separable(order) | Claim::SymmetricBase(order) => format!("separable({order})"),
+            Claim::Nystrom(order) => format!("nystrom({order})"),
+            Claim::Perturbed(orders) => {
+                let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
+                format!("perturbed({})", orders.join(", "))
+            }
         }
     }
 

@@ -59,7 +59,7 @@ pub use digits::Digits;
 pub use error::CertifyError;
 pub use find::find_processor;
 pub(crate) use lyndon::split_lyndon;
-pub use lyndon::{Alphabet, Word};
+pub use lyndon::{Alphabet, Word, is_lyndon};
 pub use printed::{MAX_DIGITS, Printed};
 pub use processed::Processor;
 pub use search::{certify, certify_composition, certify_processed};

@@ -130,7 +130,7 @@ impl Based {
                 parts.push((Key::Symmetric, "true".to_owned()));
             }
             if let Some(given) = weights.given.as_ref().filter(|_| weights.claimed) {
-                parts.push((Key::Claim, claim::text(&given.claim)));
+                parts.push((Key::Claim, given.claim.notation()));
             }
         }
         parts

@@ -96,7 +96,7 @@ impl Certified {
     /// The parts in canonical form.
     pub fn parts(&self) -> Vec<(Key, String)> {
         let mut parts = self.printed.parts(|printed| printed.text().to_owned());
-        parts.push((Key::Claim, claim::text(self.claim())));
+        parts.push((Key::Claim, self.claim().notation()));
         parts
     }
 }

@@ -36,18 +36,6 @@ pub fn read(definition: &Definition) -> Result<Claim, Error> {
     })
 }
 
-/// The claim as text.
-pub fn text(claim: &Claim) -> String {
-    match claim {
-        Claim::Separable(order) | Claim::SymmetricBase(order) => format!("separable({order})"),
-        Claim::Nystrom(order) => format!("nystrom({order})"),
-        Claim::Perturbed(orders) => {
-            let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
-            format!("perturbed({})", orders.join(", "))
-        }
-    }
-}
-
 /// Reads a list of decimals, optionally in brackets.
 pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
     let read = |range: Range<usize>| {

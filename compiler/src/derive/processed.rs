@@ -172,7 +172,7 @@ impl Processed {
         let kernel = self.kernel.definition();
         let parts = kernel.parts().map(|(key, text)| (key, text.to_owned()));
         let claim = self.given.as_ref();
-        let claim = claim.map(|given| (Key::Claim, claim::text(&given.claim)));
+        let claim = claim.map(|given| (Key::Claim, given.claim.notation()));
         let processor = [(Key::Processor, self.text.clone())];
         parts.chain(processor).chain(claim).collect()
     }
