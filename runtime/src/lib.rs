@@ -139,6 +139,8 @@ mod book {
     struct Choosing;
     #[doc = include_str!("../../docs/src/guide/methods.md")]
     struct Methods;
+    #[doc = include_str!("../../docs/src/guide/design.md")]
+    struct Design;
     #[doc = include_str!("../../docs/src/guide/at-run-time.md")]
     struct AtRunTime;
     #[doc = include_str!("../../docs/src/guide/long-runs.md")]
