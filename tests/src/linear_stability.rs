@@ -28,6 +28,8 @@ pub struct Entry {
     a_tilde: Vec<Vec<f64>>,
     b: Vec<f64>,
     b_tilde: Vec<f64>,
+    /// The weights of gradient kicks, or none.
+    gradient: Vec<f64>,
 }
 
 /// The relevant parts of a file.
@@ -83,6 +85,8 @@ struct Decimals {
     a_tilde: Option<Vec<Vec<String>>>,
     b: Vec<String>,
     b_tilde: Vec<String>,
+    #[serde(default)]
+    gradient: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -135,6 +139,7 @@ impl Entry {
             a_tilde: matrix(file.decimals.a_tilde.as_ref()?)?,
             b: row(&file.decimals.b)?,
             b_tilde: row(&file.decimals.b_tilde)?,
+            gradient: row(&file.decimals.gradient)?,
         })
     }
 
@@ -173,6 +178,7 @@ impl Entry {
             a_tilde: doubles.a_tilde,
             b: doubles.b,
             b_tilde: doubles.b_tilde,
+            gradient: doubles.gradient,
         })
     }
 
@@ -257,7 +263,8 @@ struct Stage {
 impl ExplicitStep<'_> {
     /// The matrix that maps `(q, p/ω)` over a step with `hω = ν`.
     pub fn matrix(&self, nu: f64) -> Matrix2<f64> {
-        // Q_i = q + ν Σ a_ij P_j and P_i = p − ν Σ ã_ij Q_j, for (q, p) = (1, 0) and (0, 1) together.
+        // Q_i = q + ν Σ a_ij P_j and P_i = p − ν Σ ã_ij Q_j, for (q, p) = (1, 0) and (0, 1) together. A gradient kick, which is one of a
+        // splitting, has b̃_j − 2 g_j ν² in the place of b̃_j.
         let sign = [nu, -nu];
         let unit = [[1.0, 0.0], [0.0, 1.0]];
         let stages = self.entry.b.len();
@@ -267,7 +274,9 @@ impl ExplicitStep<'_> {
                      values: &[Vec<[f64; 2]>; 2]| {
             terms.fold(unit[half], |[x, y], (j, coefficient)| {
                 let [u, v] = values[1 - half][j];
-                let factor = sign[half] * coefficient;
+                let gradient = self.entry.gradient.get(j).filter(|_| half == 1);
+                let gradient = gradient.map_or(0.0, |weight| 2.0 * weight * nu.powi(3));
+                let factor = sign[half] * coefficient + gradient;
                 [x + factor * u, y + factor * v]
             })
         };
